@@ -1,0 +1,20 @@
+# Writes the text of INPUT as a C++ string constant into OUTPUT (see pliant_embed).
+file(READ "${INPUT}" TEXT)
+string(REGEX REPLACE "[^A-Za-z0-9]" "_" SYMBOL "${RELATIVE}")
+# A raw literal may not exceed 64 KiB in some compilers; adjacent literals join, so split the text.
+string(LENGTH "${TEXT}" LENGTH)
+set(PIECES "")
+set(START 0)
+while(START LESS LENGTH)
+  string(SUBSTRING "${TEXT}" ${START} 8000 PIECE)
+  string(APPEND PIECES "R\"PLIANT(${PIECE})PLIANT\"\n")
+  math(EXPR START "${START} + 8000")
+endwhile()
+file(WRITE "${OUTPUT}" "// Made from ${RELATIVE}; do not edit.
+#pragma once
+#include <string_view>
+namespace pliant::embedded {
+inline constexpr std::string_view ${SYMBOL} =
+${PIECES};
+}
+")

@@ -1,0 +1,21 @@
+# `cmake --install` puts the libraries, their headers and the program below the prefix.
+include(CMakePackageConfigHelpers)
+get_property(ROOMS GLOBAL PROPERTY PLIANT_ROOMS)
+
+add_library(pliant_all INTERFACE)
+set_target_properties(pliant_all PROPERTIES EXPORT_NAME pliant)
+add_library(Pliant::pliant ALIAS pliant_all)
+target_link_libraries(pliant_all INTERFACE ${ROOMS})
+
+install(TARGETS pliant_all ${ROOMS} EXPORT PliantTargets)
+install(TARGETS pliant RUNTIME)
+install(EXPORT PliantTargets NAMESPACE Pliant:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pliant)
+install(DIRECTORY framework energies graphs samplers solvers experiments
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY experiments/ DESTINATION ${CMAKE_INSTALL_DATADIR}/pliant/experiments
+  FILES_MATCHING PATTERN "*.yaml")
+configure_package_config_file(cmake/PliantConfig.cmake.in PliantConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pliant)
+write_basic_package_version_file(PliantConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/PliantConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/PliantConfigVersion.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pliant)

@@ -1,0 +1,21 @@
+# Compiler settings that every target of the project shares.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+add_library(pliant_options INTERFACE)
+target_compile_options(pliant_options INTERFACE -Wall -Wextra)
+if(PLIANT_WARNINGS_AS_ERRORS)
+  target_compile_options(pliant_options INTERFACE -Werror)
+endif()
+if(PLIANT_COVERAGE)
+  target_compile_options(pliant_options INTERFACE --coverage -fprofile-update=atomic)
+  target_link_options(pliant_options INTERFACE --coverage)
+endif()

@@ -1,0 +1,131 @@
+#include "experiments/datasets/rgbd_pair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "framework/core/error.h"
+#include "framework/io/images.h"
+#include "framework/io/intrinsics.h"
+#include "framework/io/scene_flow.h"
+
+namespace pliant {
+namespace {
+
+/// Throws unless `image` (of the file `path`) has the size of the depth image it belongs to.
+template <class AnyImage, class Depth>
+void check_size(const AnyImage& image, const std::string& path, const Depth& depth, const std::string& depth_path) {
+  if (image.width() == depth.width() && image.height() == depth.height()) return;
+  throw DataError(fmt::format("{}: {}x{} pixels, but the depth image {} has {}x{}", path, image.width(),
+                              image.height(), depth_path, depth.width(), depth.height()));
+}
+
+void drop_farther(DepthImage& depth, double limit) {
+  std::replace_if(
+      depth.data(), depth.data() + depth.size(), [limit](float value) { return value > limit; }, 0.0f);
+}
+
+bool has_point(const RgbdFrame& frame, std::size_t pixel) {
+  return frame.depth.pixels()[pixel] > 0 && (frame.mask.empty() || frame.mask.pixels()[pixel] != 0);
+}
+
+void check_has_points(const RgbdFrame& frame, const RgbdPair::FrameFiles& files, std::optional<double> max_depth) {
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
+    if (has_point(frame, i)) return;
+  }
+  throw DataError(fmt::format("{}: no valid depth{}{}", files.depth,
+                              max_depth ? fmt::format(" up to {} mm", *max_depth) : "",
+                              frame.mask.empty() ? "" : " inside the mask " + files.mask));
+}
+
+MaskImage read_object_mask(const std::string& path) {
+  MaskImage mask = read_mask(path);
+  const auto is_object = [](std::uint8_t value) { return value != 0; };
+  if (std::none_of(mask.pixels().begin(), mask.pixels().end(), is_object)) {
+    throw DataError(fmt::format("{}: the mask is empty", path));
+  }
+  return mask;
+}
+
+RgbdFrame read_frame(const RgbdPair::FrameFiles& files, std::optional<double> max_depth) {
+  RgbdFrame frame;
+  frame.depth = read_depth(files.depth);
+  if (!files.color.empty()) {
+    frame.color = read_color(files.color);
+    check_size(frame.color, files.color, frame.depth, files.depth);
+  }
+  if (!files.mask.empty()) {
+    frame.mask = read_object_mask(files.mask);
+    check_size(frame.mask, files.mask, frame.depth, files.depth);
+  }
+  if (max_depth) drop_farther(frame.depth, *max_depth);
+  check_has_points(frame, files, max_depth);
+  return frame;
+}
+
+// A truth that says nothing about the source belongs to another image.
+void check_has_truth(const FramePair& pair, const std::string& path) {
+  for (std::size_t i = 0; i < pair.scene_flow.size(); ++i) {
+    if (has_point(pair.source, i) && pair.scene_flow.pixels()[i].allFinite()) return;
+  }
+  throw DataError(fmt::format("{}: no ground truth on any point of the source", path));
+}
+
+std::string path_or_empty(const Parameters& section, const std::string& name) {
+  return section.has(name) ? section.text(name) : "";
+}
+
+RgbdPair::FrameFiles frame_files(const Parameters& section) {
+  return {section.text("depth"), path_or_empty(section, "color"), path_or_empty(section, "mask")};
+}
+
+ParameterTable frame_table() {
+  return {
+      path("depth").doc("16-bit PNG of depth in mm, 0 where there is none"),
+      path("color").optional().doc("PNG or JPEG, aligned with the depth"),
+      path("mask").optional().doc("single-channel PNG, not zero on the object"),
+  };
+}
+
+}  // namespace
+
+FramePair RgbdPair::load(std::uint64_t /*seed*/) const {
+  FramePair pair;
+  const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
+  pair.name = stem(settings_.source.depth) + " to " + stem(settings_.target.depth);
+  pair.source = read_frame(settings_.source, settings_.max_depth);
+  pair.target = read_frame(settings_.target, settings_.max_depth);
+  check_size(pair.target.depth, settings_.target.depth, pair.source.depth, settings_.source.depth);
+  pair.camera = read_intrinsics(settings_.intrinsics, pair.source.depth.width(), pair.source.depth.height());
+  if (!settings_.scene_flow.empty()) {
+    pair.scene_flow = read_scene_flow(settings_.scene_flow);
+    check_size(pair.scene_flow, settings_.scene_flow, pair.source.depth, settings_.source.depth);
+    check_has_truth(pair, settings_.scene_flow);
+  }
+  return pair;
+}
+
+void register_rgbd_pair(Registry& registry) {
+  registry.add<DataSource>(
+      "rgbd_pair", "Two RGB-D images from files, seen by one camera",
+      {
+          group("source", frame_table()).doc("the image that is deformed"),
+          group("target", frame_table()).doc("the image it is deformed to"),
+          path("intrinsics").doc("text file with the 3x3 or 4x4 camera matrix in pixels"),
+          path("scene_flow").optional().doc("true motion of every source pixel (.sflow)"),
+          real("max_depth").unit("mm").above(0).optional().doc("farther depth is dropped; nothing by default"),
+      },
+      [](const Parameters& parameters, const Registry&) -> std::unique_ptr<DataSource> {
+        RgbdPair::Settings settings;
+        settings.source = frame_files(parameters.section("source"));
+        settings.target = frame_files(parameters.section("target"));
+        settings.intrinsics = parameters.text("intrinsics");
+        settings.scene_flow = path_or_empty(parameters, "scene_flow");
+        if (parameters.has("max_depth")) settings.max_depth = parameters.real("max_depth");
+        return std::make_unique<RgbdPair>(std::move(settings));
+      });
+}
+
+}  // namespace pliant

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "experiments/datasets/data_source.h"
+#include "framework/core/registry.h"
+
+namespace pliant {
+
+/// Two RGB-D images from files, with what is known about them. Paths are empty where there is no file.
+class RgbdPair : public DataSource {
+ public:
+  struct FrameFiles {
+    std::string depth;
+    std::string color;
+    std::string mask;
+  };
+  struct Settings {
+    FrameFiles source;
+    FrameFiles target;
+    std::string intrinsics;
+    std::string scene_flow;
+    std::optional<double> max_depth;  ///< mm; farther depth is dropped
+  };
+
+  explicit RgbdPair(Settings settings) : settings_(std::move(settings)) {}
+
+  /// Gives images of one size with at least one point in the source and in the target, and with truth,
+  /// where there is a file of it, for at least one point of the source. The seed plays no part.
+  FramePair load(std::uint64_t seed) const override;
+
+ private:
+  Settings settings_;
+};
+
+void register_rgbd_pair(Registry& registry);
+
+}  // namespace pliant

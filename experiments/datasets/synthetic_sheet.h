@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "experiments/datasets/data_source.h"
+#include "framework/core/registry.h"
+
+namespace pliant {
+
+/// A flat sheet that bends without stretching, all in mm in the camera's frame. A point of its material has
+/// coordinates (s, t), |s| <= width / 2, |t| <= height / 2:
+///
+///   flat(s, t) = (s, t, distance)
+///   bent(s, t) = (x(s), t, z(s)),  z(s) = distance - approach + amplitude cos(w s)
+///                                  x(s) = integral from 0 to s of sqrt(1 - k^2 sin^2(w r)) dr
+///
+/// with w = 2 pi frequency / width and k = amplitude w. Since x'^2 + z'^2 = 1 every length on the sheet is
+/// kept, so that its points also move sideways; x is an elliptic integral of the second kind, E(w s, k) / w.
+class BendingSheet {
+ public:
+  struct Shape {
+    double width = 320;
+    double height = 240;
+    double distance = 800;   ///< of the flat sheet from the camera
+    double amplitude = 25;   ///< of the wave
+    double frequency = 0.6;  ///< waves over the width
+    double approach = 18;    ///< towards the camera, of the whole sheet while it bends
+  };
+
+  /// Throws ConfigError when the bent sheet would reach the camera or hide a part of itself from it.
+  explicit BendingSheet(const Shape& shape);
+
+  Eigen::Vector3d flat(double s, double t) const { return {s, t, shape_.distance}; }
+  Eigen::Vector3d bent(double s, double t) const { return {x(s), t, z(s)}; }
+
+  /// Material coordinates (s, t) seen along the ray (a, b, 1) from the camera; none beside the sheet.
+  std::optional<Eigen::Vector2d> see_flat(double a, double b) const;
+  std::optional<Eigen::Vector2d> see_bent(double a, double b) const;
+
+  /// Colour of the material: smooth random noise of several scales, the same for every sheet.
+  static Rgb color(double s, double t);
+
+ private:
+  void check() const;
+  double x(double s) const;
+  double z(double s) const;
+  std::optional<double> solve(double a) const;
+  std::optional<Eigen::Vector2d> inside(double s, double t) const;
+
+  Shape shape_;
+  double w_;
+  double k_;
+};
+
+/// The sheet, flat as the source and bent as the target [thesis data set I], seen by a pinhole camera with
+/// no background. Without noise the depth of every pixel is exact (not rounded to whole millimetres); the
+/// scene flow is the exact motion of the material seen at each source pixel, also under noise.
+class SyntheticSheet : public DataSource {
+ public:
+  /// `noise`: strength of the KinectNoise on both depth images.
+  SyntheticSheet(const BendingSheet& sheet, const Camera& camera, double noise)
+      : sheet_(sheet), camera_(camera), noise_(noise) {}
+
+  /// The seed is that of the noise. Throws DataError when no pixel sees the sheet.
+  FramePair load(std::uint64_t seed) const override;
+
+ private:
+  BendingSheet sheet_;
+  Camera camera_;
+  double noise_;
+};
+
+void register_synthetic_sheet(Registry& registry);
+
+}  // namespace pliant

@@ -1,0 +1,142 @@
+#include "experiments/report/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "experiments/report/heat_map.h"
+#include "framework/io/file.h"
+
+namespace pliant {
+namespace {
+
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+
+/// The value that `share` of the finite values stay below; 0 when there are none.
+float quantile(std::vector<float> values, double share) {
+  values.erase(
+      std::remove_if(values.begin(), values.end(), [](float value) { return !std::isfinite(value); }),
+      values.end());
+  if (values.empty()) return 0;
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+std::vector<float> depths(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<float> values;
+  for (const Eigen::Vector3f& point : points) values.push_back(point.z());
+  return values;
+}
+
+/// Values per source point, at the pixels that the points came from.
+Image<float> at_source_pixels(const ReportInput& input, const std::vector<float>& values) {
+  Image<float> image(input.pair.camera.width, input.pair.camera.height, nothing);
+  const std::vector<Eigen::Vector2i>& pixels = input.run.result.source.pixels;
+  for (std::size_t i = 0; i < values.size(); ++i) image(pixels[i].x(), pixels[i].y()) = values[i];
+  return image;
+}
+
+Image<float> target_depth(const SurfaceMap& target) {
+  Image<float> image(target.points.width(), target.points.height(), nothing);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const float depth = target.points.data()[i].z();
+    if (depth > 0) image.data()[i] = depth;
+  }
+  return image;
+}
+
+/// Fits the registered object, from where it starts to where it ends: a room behind it would otherwise
+/// take all the colours.
+ColorScale depth_scale(const RegistrationResult& result) {
+  std::vector<float> values = depths(result.source.points);
+  const std::vector<float> moved = depths(result.points);
+  values.insert(values.end(), moved.begin(), moved.end());
+  const float nearest = quantile(values, 0.005);
+  const float furthest = quantile(values, 0.995);
+  const auto step = static_cast<float>(round_up(std::max(furthest - nearest, 1.0f) / 10));
+  return {ColorScale::Map::depth, step * std::floor(nearest / step),
+          step * (std::floor(furthest / step) + 1)};
+}
+
+/// Fits what non-rigid registration starts from: before the alignment errors may be a hundred times as
+/// large, and nothing would be seen of the end.
+ColorScale error_scale(const std::vector<float>& aligned) {
+  const float bulk = std::max(quantile(aligned, 0.95), 0.1f);
+  return {ColorScale::Map::error, 0, static_cast<float>(round_up(bulk))};
+}
+
+std::string count_points(std::size_t count) { return fmt::format("{} points", count); }
+
+std::string spread(const Metrics& metrics) {
+  return fmt::format("distance to the nearest target point: mean {:.2f} mm, standard deviation {:.2f} mm",
+                     metrics.nearest_mean, metrics.nearest_sd);
+}
+
+Picture draw(std::string file, std::string caption, const Image<float>& values, const ColorScale& scale,
+             const std::string& subtitle) {
+  std::vector<std::uint8_t> png = draw_heat_map(values, scale, caption, subtitle);
+  return {std::move(file), std::move(caption), std::move(png)};
+}
+
+std::vector<Picture> draw_depths(const ReportInput& input) {
+  const Surface& source = input.run.result.source;
+  const ColorScale scale = depth_scale(input.run.result);
+  const Image<float> target = target_depth(input.target);
+  const auto target_points =
+      std::count_if(target.pixels().begin(), target.pixels().end(), [](float depth) { return depth > 0; });
+  return {draw("depth_source.png", "Source depth", at_source_pixels(input, depths(source.points)), scale,
+               count_points(source.size())),
+          draw("depth_target.png", "Target depth", target, scale,
+               count_points(static_cast<std::size_t>(target_points)))};
+}
+
+std::vector<Picture> draw_errors(const ReportInput& input) {
+  const RunRecord& run = input.run;
+  const std::vector<float> aligned = input.evaluation.nearest(run.result.aligned_points);
+  const ColorScale scale = error_scale(aligned);
+  std::vector<Picture> pictures;
+  const auto add = [&](const char* file, const char* caption, const std::vector<float>& errors,
+                       const Metrics& metrics) {
+    pictures.push_back(draw(file, caption, at_source_pixels(input, errors), scale, spread(metrics)));
+  };
+  add("error_initial.png", "Error before registration", input.evaluation.nearest(run.result.source.points),
+      run.initial);
+  if (run.result.aligned_points != run.result.source.points) {
+    add("error_aligned.png", "Error after the initial alignment", aligned, run.aligned);
+  }
+  add("error_final.png", "Error after registration", input.evaluation.nearest(run.result.points),
+      run.metrics);
+  return pictures;
+}
+
+class PicturesReport : public Report {
+ public:
+  std::vector<std::filesystem::path> write(const ReportInput& input,
+                                           const std::filesystem::path& folder) const override {
+    std::vector<std::filesystem::path> files;
+    for (const Picture& picture : draw_pictures(input)) {
+      files.push_back(folder / picture.file);
+      write_file(files.back().string(), picture.png);
+    }
+    return files;
+  }
+};
+
+}  // namespace
+
+std::vector<Picture> draw_pictures(const ReportInput& input) {
+  std::vector<Picture> pictures = draw_depths(input);
+  for (Picture& picture : draw_errors(input)) pictures.push_back(std::move(picture));
+  return pictures;
+}
+
+void register_pictures_report(Registry& registry) {
+  registry.add<Report>("pictures", "Depth and errors as PNG pictures with a colour bar in mm", {},
+                       [](const Parameters&, const Registry&) { return std::make_unique<PicturesReport>(); });
+}
+
+}  // namespace pliant

@@ -1,0 +1,256 @@
+#include "framework/core/config.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "framework/core/config_overlay.h"
+#include "framework/core/config_reader.h"
+#include "framework/core/config_resolver.h"
+#include "framework/core/config_tree.h"
+
+namespace pliant {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using Kind = ConfigNode::Kind;
+
+constexpr std::size_t max_file_size = std::size_t{1} << 20;
+
+/// The text of a file, or why there is none.
+struct FileText {
+  std::string text;
+  std::string problem;
+};
+
+FileText read_file(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status)) return {"", "the file does not exist"};
+  if (fs::is_directory(status)) return {"", "is a folder; expected a YAML file"};
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(max_file_size + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream.is_open() || stream.bad()) return {"", "the file cannot be read"};
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > max_file_size)
+    return {"", fmt::format("more than {} bytes; expected an experiment", max_file_size)};
+  return {std::move(text), ""};
+}
+
+/// The one name of a file; the path as it is where the file system cannot say.
+fs::path canonical_name(const fs::path& file) {
+  std::error_code error;
+  const fs::path name = fs::weakly_canonical(file, error);
+  return error ? file : name;
+}
+
+/// Reads a file and, beneath it, those that it extends.
+class FileLoader {
+ public:
+  FileLoader(const ConfigOverlay& overlay, ConfigErrors& errors) : overlay_(overlay), errors_(errors) {}
+
+  /// Empty when the file or one beneath it cannot be used; why is then among the errors.
+  std::optional<ConfigNode> load(const fs::path& file) {
+    const auto origin = std::make_shared<const ConfigOrigin>(
+        ConfigOrigin{file.string(), fs::absolute(file).parent_path(), true, files_++});
+    return load(file, origin, {origin, 0, 0}, "");
+  }
+
+  int files() const { return files_; }
+
+ private:
+  /// Problems of the file as a whole are told at `named`, where it is named, and begin with `prefix`.
+  std::optional<ConfigNode> load(const fs::path& file, const std::shared_ptr<const ConfigOrigin>& origin,
+                                 const ConfigMark& named, const std::string& prefix) {
+    FileText read = read_file(file);
+    if (!read.problem.empty()) {
+      errors_.add(named, prefix + read.problem);
+      return {};
+    }
+    auto tree = read_yaml(read.text, origin, errors_);
+    if (!tree) return {};
+    tree->mark = {origin, 1, 1};
+    if (tree->kind != Kind::map) {
+      errors_.add(tree->mark, std::string(tree->kind == Kind::null ? "the file is empty" : "not a map") +
+                                  "; expected the keys of an experiment");
+      return {};
+    }
+    chain_.push_back({origin->name, canonical_name(file)});
+    auto whole = extended(std::move(*tree));
+    chain_.pop_back();
+    return whole;
+  }
+
+  std::optional<ConfigNode> extended(ConfigNode tree) {
+    const ConfigEntry* entry = tree.find("extends");
+    if (entry == nullptr) return tree;
+    const ConfigEntry extends = *entry;
+    tree.entries.erase(tree.entries.begin() + (entry - tree.entries.data()));
+    auto base = load_base(extends);
+    if (base) overlay_.lay_over(*base, tree, {});
+    return base;
+  }
+
+  std::optional<ConfigNode> load_base(const ConfigEntry& extends) {
+    const ConfigNode& value = extends.value;
+    if (value.kind != Kind::scalar || value.text.empty()) {
+      errors_.add(extends.mark, "'extends' names no file; expected the path of a YAML file");
+      return {};
+    }
+    const ConfigOrigin& here = *value.mark.origin;
+    const fs::path file = (here.folder / value.text).lexically_normal();
+    if (const std::string chain = circle(file); !chain.empty()) {
+      errors_.add(value.mark, "'extends' goes in a circle: " + chain);
+      return {};
+    }
+    const fs::path shown = (fs::path(here.name).parent_path() / value.text).lexically_normal();
+    const auto origin = std::make_shared<const ConfigOrigin>(
+        ConfigOrigin{shown.string(), file.parent_path(), true, files_++});
+    return load(file, origin, value.mark, "cannot extend " + in_quotes(file.string()) + ": ");
+  }
+
+  /// "a.yaml -> b.yaml -> a.yaml" where extending `file` would close a circle; empty elsewhere.
+  std::string circle(const fs::path& file) const {
+    std::string text;
+    for (const auto& link : chain_) text += link.shown + " -> ";
+    for (const auto& link : chain_) {
+      if (link.canonical == canonical_name(file)) return text + link.shown;
+    }
+    return "";
+  }
+
+  struct Link {
+    std::string shown;
+    fs::path canonical;
+  };
+
+  const ConfigOverlay& overlay_;
+  ConfigErrors& errors_;
+  std::vector<Link> chain_;
+  int files_ = 0;
+};
+
+/// The keys of "a.b.c"; empty when one of them is.
+std::vector<std::string> split_keys(const std::string& path) {
+  std::vector<std::string> keys{""};
+  for (const char letter : path) {
+    if (letter == '.')
+      keys.emplace_back();
+    else
+      keys.back() += letter;
+  }
+  const bool is_good = std::none_of(keys.begin(), keys.end(), [](const auto& key) { return key.empty(); });
+  return is_good ? keys : std::vector<std::string>{};
+}
+
+/// One `--set` as an experiment that gives this one value.
+std::optional<ConfigNode> read_set(const std::string& set, int order, ConfigErrors& errors) {
+  const auto equals = set.find('=');
+  const std::string path = set.substr(0, equals);
+  const auto origin =
+      std::make_shared<const ConfigOrigin>(ConfigOrigin{"--set " + path, fs::current_path(), false, order});
+  const ConfigMark mark{origin, 0, 0};
+  const auto keys = split_keys(path);
+  if (equals == std::string::npos || keys.empty()) {
+    errors.add(mark, "not understood; expected KEY=VALUE with a key like a.b.c");
+    return {};
+  }
+  if (keys.front() == "extends") {
+    errors.add(mark, "'extends' cannot be set; expected it in an experiment file");
+    return {};
+  }
+  auto value = read_yaml(set.substr(equals + 1), origin, errors);
+  if (!value) return {};
+  value->mark.origin = origin;
+  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+    ConfigNode section;
+    section.kind = Kind::map;
+    section.mark = mark;
+    section.entries.push_back({*key, mark, std::move(*value)});
+    value = std::move(section);
+  }
+  return value;
+}
+
+void lay_sets_over(ConfigNode& tree, const std::vector<std::string>& sets, int order,
+                   const ConfigOverlay& overlay, ConfigErrors& errors) {
+  ConfigNode all;
+  all.kind = Kind::map;
+  for (const auto& set : sets) {
+    if (const auto one = read_set(set, order++, errors))
+      overlay.lay_over(all, *one, {.fragments = true, .keep_places = false});
+  }
+  overlay.lay_over(tree, all, {.fragments = false, .keep_places = true});
+}
+
+/// Whether YAML takes the bare text for nothing but this text.
+bool is_plain(const std::string& text) {
+  if (text.empty() || !(std::isalpha(static_cast<unsigned char>(text.front())) != 0 || text.front() == '/'))
+    return false;
+  const bool is_tame = std::all_of(text.begin(), text.end(), [](unsigned char letter) {
+    return std::isalnum(letter) != 0 || letter == '/' || letter == '_' || letter == '-' || letter == '.';
+  });
+  std::string lower = text;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  for (const char* word : {"true", "false", "null", "yes", "no", "on", "off", "y", "n"})
+    if (lower == word) return false;
+  return is_tame;
+}
+
+std::string yaml_scalar(const ordered_json& value) {
+  if (value.is_number_float()) {
+    std::string text = fmt::format("{}", value.get<double>());
+    // A real number shall look like one to whoever reads the file next.
+    return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+  }
+  if (value.is_string() && is_plain(value.get_ref<const std::string&>())) return value.get<std::string>();
+  // What JSON escapes in a text, YAML escapes the same way.
+  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+void write_yaml(const ordered_json& map, const std::string& indent, std::string& yaml) {
+  for (const auto& [key, value] : map.items()) {
+    yaml += indent + yaml_scalar(key) + ":";
+    if (value.is_object() && !value.empty()) {
+      yaml += "\n";
+      write_yaml(value, indent + "  ", yaml);
+    } else if (value.is_array()) {
+      std::string items;
+      for (const auto& item : value) items += (items.empty() ? "" : ", ") + yaml_scalar(item);
+      yaml += " [" + items + "]\n";
+    } else {
+      yaml += " " + yaml_scalar(value) + "\n";
+    }
+  }
+}
+
+}  // namespace
+
+std::string Experiment::to_yaml() const {
+  std::string yaml;
+  write_yaml(tree, "", yaml);
+  return yaml;
+}
+
+Experiment load_experiment(const ConfigSource& source, const ParameterTable& root, const Registry& registry) {
+  ConfigErrors errors;
+  const ConfigOverlay overlay(root, registry);
+  FileLoader loader(overlay, errors);
+  auto tree = loader.load(source.file);
+  if (!tree) errors.throw_if_any();
+  lay_sets_over(*tree, source.sets, loader.files(), overlay, errors);
+  ConfigResolver resolver(root, registry, source.data_folders, errors);
+  ResolvedSection resolved = resolver.experiment(*tree);
+  errors.throw_if_any();
+  return {std::move(resolved.values), std::move(resolved.tree)};
+}
+
+}  // namespace pliant

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/core/parameters.h"
+#include "framework/core/registry.h"
+
+namespace pliant {
+
+/// What an experiment is read from.
+struct ConfigSource {
+  std::filesystem::path file;
+  /// Values laid over the file, each "a.b.c=value" with the value in YAML, e.g. "solver.type=ceres_lm". A
+  /// section that names another component than the file does replaces the file's; all of them together are
+  /// one overlay, so their order does not matter.
+  std::vector<std::string> sets;
+  /// Where files named in the experiment are looked for, in this order, after the folder of the YAML file
+  /// that names them (for `sets`: after the current folder).
+  std::vector<std::filesystem::path> data_folders;
+};
+
+/// A checked experiment.
+struct Experiment {
+  /// Every key of the table, with the defaults filled in. The entries of an `overrides` parameter are whole
+  /// experiments: this one with the entry laid over it, without the parameters that hold overrides.
+  Parameters values;
+  /// The same as a tree of typed values, with an override as the part that was given.
+  nlohmann::ordered_json tree;
+
+  /// The whole experiment as a file that stands alone; it loads again to the same values.
+  std::string to_yaml() const;
+  const nlohmann::ordered_json& to_json() const { return tree; }
+};
+
+/// Reads an experiment file strictly against the table `root`. A file may name another one in its top-level
+/// key `extends` (absolute, or relative to itself), over which it is laid: maps merge, the overlay wins, and
+/// a section that names another component replaces the whole section.
+///
+/// Throws one ConfigError that tells everything that is wrong, one line each:
+/// `file:line:column: what is wrong; what was expected; did you mean 'x'?`
+Experiment load_experiment(const ConfigSource& source, const ParameterTable& root, const Registry& registry);
+
+}  // namespace pliant

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "framework/core/config_tree.h"
+
+namespace pliant {
+
+/// Reads one YAML document. Anchors are expanded in place. Keys that stand twice are reported and the first
+/// one counts; when the text cannot be understood at all the result is empty. Text that would make an
+/// unreasonably large or deep tree is refused.
+std::optional<ConfigNode> read_yaml(const std::string& text, std::shared_ptr<const ConfigOrigin> origin,
+                                    ConfigErrors& errors);
+
+}  // namespace pliant

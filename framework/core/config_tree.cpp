@@ -1,0 +1,85 @@
+#include "framework/core/config_tree.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace pliant {
+namespace {
+
+// Beyond this a list of errors helps nobody, and a hostile file could make it endless.
+constexpr std::size_t max_errors = 200;
+constexpr std::size_t max_shown_length = 80;
+
+std::string place(const ConfigMark& mark) {
+  if (mark.origin->is_file && mark.line > 0)
+    return fmt::format("{}:{}:{}", mark.origin->name, mark.line, mark.column);
+  return mark.origin->name;
+}
+
+}  // namespace
+
+const ConfigEntry* ConfigNode::find(const std::string& key) const {
+  const auto entry =
+      std::find_if(entries.begin(), entries.end(), [&](const ConfigEntry& e) { return e.key == key; });
+  return entry == entries.end() ? nullptr : &*entry;
+}
+
+ConfigEntry* ConfigNode::find(const std::string& key) {
+  return const_cast<ConfigEntry*>(static_cast<const ConfigNode*>(this)->find(key));
+}
+
+std::size_t count_nodes(const ConfigNode& node) {
+  std::size_t count = 1;
+  for (const auto& item : node.items) count += count_nodes(item);
+  for (const auto& entry : node.entries) count += count_nodes(entry.value);
+  return count;
+}
+
+std::string in_quotes(const std::string& text) {
+  std::string shown = "'";
+  for (const char letter : text.substr(0, max_shown_length)) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (code < 0x20 || code == 0x7f)
+      shown += fmt::format("\\x{:02x}", code);
+    else
+      shown += letter;
+  }
+  if (text.size() > max_shown_length) {
+    // Do not end in the middle of a UTF-8 letter.
+    std::size_t cut = max_shown_length;
+    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) {
+      --cut;
+      shown.pop_back();
+    }
+    shown += "...";
+  }
+  return shown + "'";
+}
+
+void ConfigErrors::add(const ConfigMark& mark, const std::string& message) {
+  std::string line = place(mark) + ": " + message;
+  const bool known =
+      std::any_of(errors_.begin(), errors_.end(), [&](const Item& item) { return item.line == line; });
+  if (known) return;
+  if (errors_.size() < max_errors)
+    errors_.push_back({mark, std::move(line)});
+  else
+    ++dropped_;
+}
+
+void ConfigErrors::throw_if_any() const {
+  if (errors_.empty()) return;
+  std::vector<Item> sorted = errors_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Item& a, const Item& b) {
+    return std::make_tuple(a.mark.origin->order, a.mark.line, a.mark.column) <
+           std::make_tuple(b.mark.origin->order, b.mark.line, b.mark.column);
+  });
+  std::string message;
+  for (const auto& item : sorted) message += (message.empty() ? "" : "\n") + item.line;
+  if (dropped_ > 0) message += fmt::format("\n... and {} more errors", dropped_);
+  throw ConfigError(message);
+}
+
+}  // namespace pliant

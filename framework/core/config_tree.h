@@ -1,0 +1,76 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/core/error.h"
+
+namespace pliant {
+
+/// What a value was read from: an experiment file or a `--set` of the command line.
+struct ConfigOrigin {
+  std::string name;              ///< as errors show it: the file's path, or "--set a.b"
+  std::filesystem::path folder;  ///< where the relative paths that it names start
+  bool is_file = true;
+  int order = 0;  ///< errors are listed in this order of their origins
+};
+
+/// A place in an origin, counted from 1; line 0 means the origin as a whole.
+struct ConfigMark {
+  std::shared_ptr<const ConfigOrigin> origin;
+  int line = 0;
+  int column = 0;
+};
+
+struct ConfigEntry;
+
+/// One value of an experiment file that remembers where it was given.
+struct ConfigNode {
+  enum class Kind { null, scalar, list, map };
+
+  const ConfigEntry* find(const std::string& key) const;
+  ConfigEntry* find(const std::string& key);
+
+  Kind kind = Kind::null;
+  ConfigMark mark;
+  std::string text;     ///< of a scalar
+  bool quoted = false;  ///< a scalar that can only be a text
+  std::vector<ConfigNode> items;
+  std::vector<ConfigEntry> entries;  ///< of a map: in file order, every key once
+};
+
+struct ConfigEntry {
+  std::string key;
+  ConfigMark mark;  ///< of the key
+  ConfigNode value;
+};
+
+/// How many values a node holds, itself included.
+std::size_t count_nodes(const ConfigNode& node);
+
+/// A scalar as errors show it: in quotes, on one line, and cut where it is long.
+std::string in_quotes(const std::string& text);
+
+/// Collects the errors of an experiment so that all of them can be reported at once.
+class ConfigErrors {
+ public:
+  /// An error that is word for word an earlier one is dropped.
+  void add(const ConfigMark& mark, const std::string& message);
+
+  bool empty() const { return errors_.empty(); }
+
+  /// Throws one ConfigError with a line per error, in the order of their places, if there are any.
+  void throw_if_any() const;
+
+ private:
+  struct Item {
+    ConfigMark mark;
+    std::string line;
+  };
+  std::vector<Item> errors_;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace pliant

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "framework/deformation/graph.h"
+#include "framework/device/array.h"
+
+namespace pliant {
+
+/// Which nodes move each point, and how much: `per_point` entries a point, stored point by point, the
+/// nearest node first. The weights of a point sum to one.
+struct Influences {
+  int per_point = 0;
+  Array<int> nodes;
+  Array<float> weights;
+};
+
+/// Most nodes that may influence one point.
+inline constexpr int max_influences = 16;
+
+/// Weights of [Eq. 4.7] (Sumner et al. 2007): w_j(p) = (1 - |p - g_j| / d_max)^2 over the k nearest
+/// nodes, d_max the distance to the (k+1)-th, normalised. Points in which all k nodes lie at d_max get
+/// equal weights.
+/// `points`: x y z per point, mm. Throws DataError unless there are at least k + 1 nodes.
+Influences compute_influences(Device& device, const Array<float>& points,
+                              const std::vector<Eigen::Vector3f>& nodes, int k);
+
+/// Plain C++ reference of compute_influences; the tests hold both together.
+Influences compute_influences_reference(const std::vector<float>& points,
+                                        const std::vector<Eigen::Vector3f>& nodes, int k);
+
+/// Sumner's neighbourhood: two nodes are neighbours when they influence a common point.
+std::vector<Edge> find_edges(const Influences& influences, int node_count);
+
+}  // namespace pliant

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "framework/device/device.h"
+
+namespace pliant {
+
+/// Values that live on the host, on one device, or on both; each side is brought up to date when it is
+/// asked for. Reading on the host after the device wrote waits for the device.
+template <class T>
+class Array {
+ public:
+  Array() = default;
+  explicit Array(std::vector<T> values) : host_(std::move(values)), size_(host_.size()) {}
+  /// Uninitialised values that a device will write.
+  explicit Array(std::size_t size) : size_(size), host_is_current_(size == 0) {}
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+
+  const std::vector<T>& host() const {
+    if (!host_is_current_) {
+      host_.resize(size_);
+      if (device_ != nullptr) device_->read(buffer_, host_.data(), bytes());
+      host_is_current_ = true;
+    }
+    return host_;
+  }
+  /// For changing values on the host (not their number); the device's copy becomes stale.
+  std::vector<T>& write_host() {
+    host();
+    device_is_current_ = false;
+    return host_;
+  }
+
+  const cl::Buffer& device(Device& device) const {
+    attach(device);
+    if (!device_is_current_) {
+      if (host_is_current_) device.write(buffer_, host_.data(), bytes());
+      device_is_current_ = true;
+    }
+    return buffer_;
+  }
+  /// For kernels that write; the host's copy becomes stale.
+  const cl::Buffer& write_device(Device& device) {
+    this->device(device);
+    host_is_current_ = false;
+    return buffer_;
+  }
+
+ private:
+  std::size_t bytes() const { return size_ * sizeof(T); }
+  void attach(Device& device) const {
+    if (device_ == &device) return;
+    if (device_ != nullptr) host();  // moving from one device to another goes through the host
+    buffer_ = device.allocate(bytes());
+    device_ = &device;
+    device_is_current_ = false;
+  }
+
+  mutable std::vector<T> host_;
+  std::size_t size_ = 0;
+  mutable cl::Buffer buffer_;
+  mutable Device* device_ = nullptr;
+  mutable bool host_is_current_ = true;
+  mutable bool device_is_current_ = false;
+};
+
+}  // namespace pliant

@@ -1,0 +1,198 @@
+#include "framework/device/device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "framework/core/error.h"
+
+namespace pliant {
+namespace {
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+// Drivers pad names with spaces and, some of them, with a terminating zero.
+std::string trimmed(std::string text) {
+  while (!text.empty() && (text.back() == '\0' || std::isspace(static_cast<unsigned char>(text.back()))))
+    text.pop_back();
+  const auto first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first);
+}
+
+DeviceInfo describe(const cl::Device& device) {
+  const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+  DeviceInfo info;
+  info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
+  info.vendor = trimmed(device.getInfo<CL_DEVICE_VENDOR>());
+  info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+  info.version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
+  info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
+  info.is_gpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0;
+  info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+  info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  return info;
+}
+
+std::vector<cl::Device> all_devices() {
+  std::vector<cl::Device> devices;
+  std::vector<cl::Platform> platforms;
+  try {
+    cl::Platform::get(&platforms);
+  } catch (const cl::Error&) {
+    return devices;  // the loader reports "no platform" as an error
+  }
+  for (const auto& platform : platforms) {
+    std::vector<cl::Device> found;
+    try {
+      platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
+    } catch (const cl::Error&) {
+      continue;  // a platform without devices reports an error too
+    }
+    devices.insert(devices.end(), found.begin(), found.end());
+  }
+  // A CPU first: "any" then means the same device on most machines.
+  std::stable_sort(devices.begin(), devices.end(), [](const cl::Device& a, const cl::Device& b) {
+    return describe(a).is_gpu < describe(b).is_gpu;
+  });
+  return devices;
+}
+
+bool matches(const DeviceInfo& info, const std::string& selection) {
+  if (selection == "any") return true;
+  if (selection == "cpu") return !info.is_gpu;
+  if (selection == "gpu") return info.is_gpu;
+  return lower(info.name + " " + info.platform).find(selection) != std::string::npos;
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> Device::list() {
+  std::vector<DeviceInfo> infos;
+  for (const auto& device : all_devices()) infos.push_back(describe(device));
+  return infos;
+}
+
+Device::Device(const std::string& selection) {
+  const auto devices = all_devices();
+  const auto chosen = std::find_if(devices.begin(), devices.end(), [&](const cl::Device& device) {
+    return matches(describe(device), lower(selection));
+  });
+  if (chosen == devices.end()) {
+    std::string known;
+    for (const auto& info : list()) known += (known.empty() ? "" : ", ") + info.name;
+    throw DeviceError(fmt::format(
+        "no OpenCL device matches '{}'; {}", selection,
+        known.empty() ? "there is none at all: install an OpenCL driver, e.g. the package pocl-opencl-icd"
+                      : "there are: " + known));
+  }
+  device_ = *chosen;
+  info_ = describe(device_);
+  try {
+    context_ = cl::Context(device_);
+    queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
+  } catch (const cl::Error& error) {
+    fail("opening device " + info_.name, error);
+  }
+}
+
+cl::Kernel Device::kernel(std::string_view source, const std::string& name, const std::string& options) {
+  const std::string all_options = fmt::format("-cl-std=CL1.2 -DWIDTH={} {}", width(), options);
+  auto& program = programs_[{all_options, std::string(source)}];
+  try {
+    if (program() == nullptr) {
+      cl::Program fresh(context_, std::string(source));
+      fresh.build({device_}, all_options.c_str());
+      program = fresh;
+    }
+    return cl::Kernel(program, name.c_str());
+  } catch (const cl::BuildError& error) {
+    std::string log;
+    for (const auto& entry : error.getBuildLog()) log += entry.second;
+    throw DeviceError(fmt::format("kernel {} does not build on {}:\n{}", name, info_.name, log));
+  } catch (const cl::Error& error) {
+    fail("making kernel " + name, error);
+  }
+}
+
+void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::size_t global,
+                     std::size_t local) {
+  if (global == 0) return;
+  const auto rounded = local == 0 ? global : (global + local - 1) / local * local;
+  cl::Event event;
+  try {
+    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(rounded),
+                                local == 0 ? cl::NullRange : cl::NDRange(local), nullptr,
+                                measuring_ ? &event : nullptr);
+  } catch (const cl::Error& error) {
+    fail(fmt::format("running kernel {} over {} work-items", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(),
+                     rounded),
+         error);
+  }
+  if (measuring_) events_.emplace_back(stage, event);
+}
+
+cl::Buffer Device::allocate(std::size_t bytes) const {
+  try {
+    // OpenCL has no empty buffers; one byte keeps empty arrays usable as kernel arguments.
+    return cl::Buffer(context_, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 1));
+  } catch (const cl::Error& error) {
+    fail(fmt::format("allocating {} bytes on {}", bytes, info_.name), error);
+  }
+}
+
+void Device::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const {
+  if (bytes == 0) return;
+  try {
+    queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data);
+  } catch (const cl::Error& error) {
+    fail(fmt::format("writing {} bytes", bytes), error);
+  }
+}
+
+void Device::read(const cl::Buffer& buffer, void* data, std::size_t bytes) const {
+  if (bytes == 0) return;
+  try {
+    queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data);
+  } catch (const cl::Error& error) {
+    fail(fmt::format("reading {} bytes", bytes), error);
+  }
+}
+
+void Device::fill_zero(const cl::Buffer& buffer, std::size_t bytes) const {
+  if (bytes == 0) return;
+  try {
+    queue_.enqueueFillBuffer(buffer, cl_uchar{0}, 0, bytes);
+  } catch (const cl::Error& error) {
+    fail(fmt::format("clearing {} bytes", bytes), error);
+  }
+}
+
+void Device::finish() const {
+  try {
+    queue_.finish();
+  } catch (const cl::Error& error) {
+    fail("waiting for the device", error);
+  }
+}
+
+StageTimes Device::take_stage_times() {
+  finish();
+  StageTimes times;
+  for (const auto& [stage, event] : events_) {
+    const auto begin = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+    const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+    times[stage] += static_cast<double>(end - begin) * 1e-6;
+  }
+  events_.clear();
+  return times;
+}
+
+void Device::fail(const std::string& what, const cl::Error& error) {
+  throw DeviceError(fmt::format("OpenCL failed while {}: {} returned {}", what, error.what(), error.err()));
+}
+
+}  // namespace pliant

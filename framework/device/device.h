@@ -1,0 +1,101 @@
+#pragma once
+
+#define CL_HPP_ENABLE_EXCEPTIONS
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
+#include <CL/opencl.hpp>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pliant {
+
+/// What `pliant devices` tells of an OpenCL device.
+struct DeviceInfo {
+  std::string name;
+  std::string vendor;
+  std::string platform;
+  std::string version;  ///< OpenCL version text of the device
+  std::string driver;
+  bool is_gpu = false;
+  int compute_units = 0;
+  std::size_t memory_bytes = 0;
+};
+
+/// Time that each stage of a computation took on the device, in milliseconds.
+using StageTimes = std::map<std::string, double>;
+
+/// An OpenCL device with one in-order queue. Kernels are enqueued and never waited for; only reading
+/// results back waits. Not thread-safe. Failures raise DeviceError.
+class Device {
+ public:
+  /// Opens a device: "any" (a CPU first, because that is where results are reproducible everywhere),
+  /// "cpu", "gpu", or a part of the device's or platform's name (case ignored).
+  explicit Device(const std::string& selection = "any");
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  static std::vector<DeviceInfo> list();
+  const DeviceInfo& info() const { return info_; }
+
+  const cl::Context& context() const { return context_; }
+  const cl::CommandQueue& queue() const { return queue_; }
+
+  /// Lanes of the explicit vectors that kernels are written over: 16 on a CPU, 1 on a GPU.
+  int width() const { return info_.is_gpu ? 1 : 16; }
+
+  /// The kernel `name` of a program. A program is built once per source and options and kept; drivers
+  /// keep binaries on disk beyond that. `-DWIDTH=<width()>` is always defined.
+  /// Throws DeviceError with the build log when the source does not compile.
+  cl::Kernel kernel(std::string_view source, const std::string& name, const std::string& options = "");
+
+  /// Enqueues a kernel over a one-dimensional range. `local` = 0 leaves the group size to the driver;
+  /// otherwise `global` is rounded up to a multiple of it.
+  template <class... Arguments>
+  void run(const std::string& stage, cl::Kernel& kernel, std::size_t global, std::size_t local,
+           const Arguments&... arguments) {
+    cl_uint index = 0;
+    (set_argument(kernel, index++, arguments), ...);
+    enqueue(stage, kernel, global, local);
+  }
+
+  /// A buffer of uninitialised bytes; DeviceError names the size when it does not fit.
+  cl::Buffer allocate(std::size_t bytes) const;
+
+  void write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const;
+  /// Waits for everything enqueued so far.
+  void read(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
+  void fill_zero(const cl::Buffer& buffer, std::size_t bytes) const;
+  void finish() const;
+
+  /// While true (default: false) every kernel's time is recorded under its stage's name.
+  void measure_stages(bool on) { measuring_ = on; }
+  /// Waits, then gives what was recorded since the last call.
+  StageTimes take_stage_times();
+
+ private:
+  template <class T>
+  void set_argument(cl::Kernel& kernel, cl_uint index, const T& value) {
+    try {
+      kernel.setArg(index, value);
+    } catch (const cl::Error& error) {
+      fail("setting argument " + std::to_string(index) + " of " + kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(),
+           error);
+    }
+  }
+  void enqueue(const std::string& stage, const cl::Kernel& kernel, std::size_t global, std::size_t local);
+  [[noreturn]] static void fail(const std::string& what, const cl::Error& error);
+
+  DeviceInfo info_;
+  cl::Device device_;
+  cl::Context context_;
+  cl::CommandQueue queue_;
+  std::map<std::pair<std::string, std::string>, cl::Program> programs_;  // by options and source
+  bool measuring_ = false;
+  std::vector<std::pair<std::string, cl::Event>> events_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "framework/geometry/camera.h"
+#include "framework/geometry/image.h"
+
+namespace pliant {
+
+/// What an RGB-D camera saw at one moment. Colour and mask are empty or of the depth's size.
+struct RgbdFrame {
+  DepthImage depth;
+  ColorImage color;
+  MaskImage mask;
+};
+
+/// A source to be registered to a target, both seen by the same camera.
+struct FramePair {
+  std::string name;
+  Camera camera;
+  RgbdFrame source;
+  RgbdFrame target;
+  /// True motion in mm (camera frame) of the surface point seen at each source pixel; NaN where it is
+  /// unknown; empty when nothing is known.
+  Image<Eigen::Vector3f> scene_flow;
+};
+
+}  // namespace pliant

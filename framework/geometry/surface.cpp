@@ -1,0 +1,124 @@
+#include "framework/geometry/surface.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+namespace pliant {
+namespace {
+
+using PointImage = Image<Eigen::Vector3f>;
+
+template <class Overlay>
+void check_same_size(const Overlay& overlay, int width, int height, const char* what) {
+  if (!overlay.empty() && (overlay.width() != width || overlay.height() != height)) {
+    throw std::invalid_argument(std::string(what) + " and depth differ in size");
+  }
+}
+
+bool is_point(const Eigen::Vector3f& point) { return point.z() > 0; }
+
+PointImage make_points(const RgbdFrame& frame, const Camera& camera) {
+  PointImage points(frame.depth.width(), frame.depth.height(), Eigen::Vector3f::Zero());
+  for (int v = 0; v < points.height(); ++v) {
+    for (int u = 0; u < points.width(); ++u) {
+      const float depth = frame.depth(u, v);
+      const bool is_inside = frame.mask.empty() || frame.mask(u, v) != 0;
+      if (is_inside && std::isfinite(depth) && depth > 0) {
+        points(u, v) = camera.unproject(u, v, depth).cast<float>();
+      }
+    }
+  }
+  return points;
+}
+
+/// Sums over the points of a window, relative to its centre so that nothing cancels.
+struct Moments {
+  int count = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+  void add(const Eigen::Vector3d& p) {
+    ++count;
+    sum += p;
+    xx += p.x() * p.x();
+    xy += p.x() * p.y();
+    xz += p.x() * p.z();
+    yy += p.y() * p.y();
+    yz += p.y() * p.z();
+    zz += p.z() * p.z();
+  }
+
+  Eigen::Matrix3d covariance() const {
+    Eigen::Matrix3d second;
+    second << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    return second / count - (sum / count) * (sum / count).transpose();
+  }
+};
+
+Moments collect_window(const PointImage& points, int u, int v, int radius, float depth_step) {
+  const Eigen::Vector3f& centre = points(u, v);
+  const int last_u = std::min(u + radius, points.width() - 1);
+  const int last_v = std::min(v + radius, points.height() - 1);
+  Moments moments;
+  for (int y = std::max(v - radius, 0); y <= last_v; ++y) {
+    for (int x = std::max(u - radius, 0); x <= last_u; ++x) {
+      const Eigen::Vector3f& point = points(x, y);
+      if (is_point(point) && std::abs(point.z() - centre.z()) < depth_step) {
+        moments.add((point - centre).cast<double>());
+      }
+    }
+  }
+  return moments;
+}
+
+/// Unit normal of the plane through the points of a window, zero where they define none.
+Eigen::Vector3d fit_normal(const Moments& moments) {
+  constexpr int kFewestPoints = 4;  // the centre and three neighbours
+  // Of the two spreads within the plane, the smaller one over the larger: below it the points lie on a
+  // line and every plane through it fits.
+  constexpr double kFlattest = 1e-6;
+  if (moments.count < kFewestPoints) return Eigen::Vector3d::Zero();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(moments.covariance());
+  const Eigen::Vector3d& spread = solver.eigenvalues();
+  if (spread[1] <= kFlattest * spread[2]) return Eigen::Vector3d::Zero();
+  return solver.eigenvectors().col(0);
+}
+
+}  // namespace
+
+SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius, float depth_step) {
+  check_same_size(frame.mask, frame.depth.width(), frame.depth.height(), "mask");
+  SurfaceMap map{make_points(frame, camera), {}};
+  map.normals = PointImage(map.points.width(), map.points.height(), Eigen::Vector3f::Zero());
+  for (int v = 0; v < map.points.height(); ++v) {
+    for (int u = 0; u < map.points.width(); ++u) {
+      const Eigen::Vector3f& point = map.points(u, v);
+      if (!is_point(point)) continue;
+      const Eigen::Vector3f normal =
+          fit_normal(collect_window(map.points, u, v, radius, depth_step)).cast<float>();
+      map.normals(u, v) = normal.dot(point) > 0 ? Eigen::Vector3f(-normal) : normal;
+    }
+  }
+  return map;
+}
+
+Surface make_surface(const SurfaceMap& map, const ColorImage& color) {
+  check_same_size(color, map.points.width(), map.points.height(), "colour");
+  Surface surface;
+  for (int v = 0; v < map.points.height(); ++v) {
+    for (int u = 0; u < map.points.width(); ++u) {
+      if (!is_point(map.points(u, v))) continue;
+      surface.points.push_back(map.points(u, v));
+      surface.normals.push_back(map.normals(u, v));
+      surface.pixels.emplace_back(u, v);
+      if (!color.empty()) surface.colors.push_back(color(u, v));
+    }
+  }
+  return surface;
+}
+
+}  // namespace pliant

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "framework/geometry/camera.h"
+#include "framework/geometry/frame.h"
+
+namespace pliant {
+
+/// The points of a depth map as a list, in row-major order of their pixels. Points in mm in the camera's
+/// frame; unit normals that face the camera, (0, 0, 0) where the neighbourhood gives none.
+struct Surface {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<Eigen::Vector2i> pixels;
+  std::vector<Rgb> colors;  ///< empty without a colour image
+
+  std::size_t size() const { return points.size(); }
+};
+
+/// The points of a depth map as images: a target for projective matching. A pixel without a point is
+/// (0, 0, 0) in both.
+struct SurfaceMap {
+  Image<Eigen::Vector3f> points;
+  Image<Eigen::Vector3f> normals;
+};
+
+/// Depth to points and normals. Only pixels with a finite positive depth count, and only those inside
+/// the mask where there is one. A normal comes from the plane fitted to the valid points of the
+/// (2 radius + 1)^2 window whose depth differs from the centre's by less than `depth_step` mm
+/// [thesis 3.1]; at least three neighbours are needed.
+SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius = 2, float depth_step = 30);
+
+/// The valid points of a map as a list, with colours from `color` when that is not empty.
+Surface make_surface(const SurfaceMap& map, const ColorImage& color);
+
+}  // namespace pliant

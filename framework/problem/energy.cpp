@@ -1,0 +1,27 @@
+#include "framework/problem/energy.h"
+
+namespace pliant {
+
+const char* to_string(Stencil stencil) {
+  switch (stencil) {
+    case Stencil::per_node:
+      return "per_node";
+    case Stencil::per_edge:
+      return "per_edge";
+    case Stencil::per_constraint:
+      return "per_constraint";
+  }
+  return "";
+}
+
+void add_energy(Registry& registry, const std::string& name, const std::string& doc, const Energy& energy) {
+  registry.add<Energy>(
+      name, doc, {real("weight", energy.weight).at_least(0).doc("Factor of this term in E_tot [Eq. 4.6]")},
+      [energy](const Parameters& parameters, const Registry&) {
+        auto made = std::make_unique<Energy>(energy);
+        made->weight = parameters.real("weight");
+        return made;
+      });
+}
+
+}  // namespace pliant

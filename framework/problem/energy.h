@@ -1,0 +1,69 @@
+#pragma once
+
+#include <ceres/jet.h>
+
+#include <string>
+#include <string_view>
+
+#include "framework/core/registry.h"
+
+namespace pliant {
+
+/// What one instance of an energy looks at. The framework evaluates, assembles and gathers per stencil,
+/// so that an energy is nothing but its equation.
+///
+/// | stencil        | u                                                          | data                |
+/// |----------------|------------------------------------------------------------|---------------------|
+/// | per_node       | 12: affine form of the node                                | none                |
+/// | per_edge       | 24: affine forms of `from` and `to`                        | 3: g_to - g_from    |
+/// | per_constraint | 3: displacement p' - p of the constrained point            | 6: q - p, normal at q |
+///
+/// An affine form is the columns of R - I, then t. Lengths in mm, camera frame.
+enum class Stencil { per_node, per_edge, per_constraint };
+
+inline constexpr int max_stencil_inputs = 24;
+inline constexpr int max_stencil_data = 6;
+inline constexpr int max_residuals = 12;
+
+constexpr int input_size(Stencil stencil) {
+  return stencil == Stencil::per_node ? 12 : stencil == Stencil::per_edge ? 24 : 3;
+}
+constexpr int data_size(Stencil stencil) {
+  return stencil == Stencil::per_node ? 0 : stencil == Stencil::per_edge ? 3 : 6;
+}
+const char* to_string(Stencil stencil);
+
+/// One residual with its Jacobian, written once in an equation.h and compiled three ways: in double for
+/// Ceres, over jets to check the Jacobian, and as OpenCL C from its text for the device.
+struct Equation {
+  using Jet = ceres::Jet<double, max_stencil_inputs>;
+
+  std::string name;         ///< the functions are `<name>_residual` and `<name>_jacobian`
+  std::string_view source;  ///< text of the equation.h
+  void (*residual)(const double* u, const double* data, double* r) = nullptr;
+  void (*jacobian)(const double* u, const double* data, double* jacobian) = nullptr;
+  void (*residual_jet)(const Jet* u, const Jet* data, Jet* r) = nullptr;
+};
+
+/// Fills an Equation from the functions of an included equation.h and its embedded text.
+#define PLIANT_MAKE_EQUATION(NAME, SOURCE)                                 \
+  ::pliant::Equation {                                                     \
+#NAME, SOURCE, &NAME##_residual < double>, &NAME##_jacobian < double>, \
+        &NAME##_residual < ::pliant::Equation::Jet>                        \
+  }
+
+/// One term of E_tot [Eq. 4.6]: weight * sum over instances of |r|^2.
+struct Energy {
+  static constexpr const char* kind = "energy";
+
+  Stencil stencil = Stencil::per_node;
+  int residuals = 0;       ///< length of r
+  bool in_length = false;  ///< r is a length (mm), so its weight changes with the unit of length
+  Equation equation;
+  double weight = 1;
+};
+
+/// Registers an energy whose only parameter is its weight.
+void add_energy(Registry& registry, const std::string& name, const std::string& doc, const Energy& energy);
+
+}  // namespace pliant

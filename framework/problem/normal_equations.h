@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "framework/problem/problem.h"
+
+namespace pliant {
+
+/// J^T J and J^T r of a problem on the device, the matrix as the 12x12 blocks of its lower triangle that
+/// are not zero by structure. Everything is enqueued, nothing waits. Kernels do nothing while word 0 of
+/// `status` is not zero, so that a finished solve costs launches only.
+class NormalEquations {
+ public:
+  /// `problem` and `device` must outlive this; the problem's structure is fixed from here on.
+  NormalEquations(Device& device, Problem& problem);
+  ~NormalEquations();
+  NormalEquations(const NormalEquations&) = delete;
+  NormalEquations& operator=(const NormalEquations&) = delete;
+
+  /// Forms blocks() and gradient() at problem.unknowns().
+  void assemble(const cl::Buffer& status);
+
+  /// Writes partial sums of E_tot at `unknowns`, to be added up in order.
+  void sum_energy(const cl::Buffer& unknowns, const cl::Buffer& status);
+  const cl::Buffer& energy_partials() const { return energy_partials_; }
+  int energy_partial_count() const { return energy_partial_count_; }
+
+  /// Row-major 12x12 blocks, one per pair; block rows and columns with row >= column, sorted.
+  const cl::Buffer& blocks() const { return blocks_; }
+  const Array<int>& block_rows() const { return block_rows_; }
+  const Array<int>& block_columns() const { return block_columns_; }
+  int block_count() const { return static_cast<int>(block_rows_.size()); }
+  /// affine_size numbers a node: half the gradient of E_tot.
+  const cl::Buffer& gradient() const { return gradient_; }
+  int node_count() const { return problem_->node_count(); }
+  Device& device() const { return *device_; }
+
+ private:
+  struct TermKernels;
+  void assemble_term(TermKernels& term, const cl::Buffer& status);
+
+  Device* device_;
+  Problem* problem_;
+  Array<int> edges_;
+  Array<int> block_rows_;
+  Array<int> block_columns_;
+  Array<int> diagonal_;
+  cl::Buffer blocks_;
+  cl::Buffer gradient_;
+  cl::Buffer energy_partials_;
+  int energy_partial_count_ = 0;
+  std::vector<std::unique_ptr<TermKernels>> terms_;
+};
+
+}  // namespace pliant

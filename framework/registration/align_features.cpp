@@ -1,0 +1,254 @@
+#include "framework/registration/align_features.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <flann/flann.hpp>
+#include <memory>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <random>
+
+#include "framework/core/error.h"
+
+namespace pliant {
+namespace {
+
+// --- RANSAC ---
+
+using Triple = std::array<std::size_t, 3>;
+
+/// std::uniform_int_distribution may differ from one standard library to the next; this does not.
+std::size_t draw_below(std::size_t count, std::mt19937_64& random) {
+  const std::uint64_t whole = std::mt19937_64::max() - std::mt19937_64::max() % count;
+  std::uint64_t value = random();
+  while (value >= whole) value = random();
+  return static_cast<std::size_t>(value % count);
+}
+
+Triple draw_triple(std::size_t count, std::mt19937_64& random) {
+  Triple triple{draw_below(count, random), draw_below(count - 1, random), draw_below(count - 2, random)};
+  // The second and third draws number what the earlier ones left over.
+  if (triple[1] >= triple[0]) ++triple[1];
+  for (const std::size_t taken : {std::min(triple[0], triple[1]), std::max(triple[0], triple[1])}) {
+    if (triple[2] >= taken) ++triple[2];
+  }
+  return triple;
+}
+
+/// A rigid motion keeps lengths, so most wrong triples are seen without fitting one. A thin triangle
+/// leaves the rotation about its long side to noise.
+bool may_be_rigid(const PointMatches& matches, const Triple& triple, double inlier_distance) {
+  double longest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t a = triple[i];
+    const std::size_t b = triple[(i + 1) % 3];
+    const double before = (matches.from[a] - matches.from[b]).norm();
+    const double after = (matches.to[a] - matches.to[b]).norm();
+    if (std::abs(before - after) > 2 * inlier_distance) return false;
+    longest = std::max(longest, before);
+  }
+  const Eigen::Vector3d side = matches.from[triple[1]] - matches.from[triple[0]];
+  const Eigen::Vector3d other = matches.from[triple[2]] - matches.from[triple[0]];
+  return side.cross(other).norm() > 0.1 * longest * longest;
+}
+
+Eigen::Isometry3d fit_rigid(const PointMatches& matches, const std::vector<std::size_t>& chosen) {
+  Eigen::Matrix3Xd from(3, chosen.size());
+  Eigen::Matrix3Xd to(3, chosen.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    from.col(i) = matches.from[chosen[i]];
+    to.col(i) = matches.to[chosen[i]];
+  }
+  return Eigen::Isometry3d(Eigen::umeyama(from, to, false));
+}
+
+struct Support {
+  double cost = 0;  ///< squared distances, an outlier's cut off: prefers close agreement among equal counts
+  std::vector<std::size_t> inliers;
+};
+
+Support find_support(const PointMatches& matches, const Eigen::Isometry3d& motion, double inlier_distance) {
+  const double limit = inlier_distance * inlier_distance;
+  Support support;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const double squared = (motion * matches.from[i] - matches.to[i]).squaredNorm();
+    if (squared < limit) support.inliers.push_back(i);
+    support.cost += std::min(squared, limit);
+  }
+  return support;
+}
+
+struct Hypothesis {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  Support support;
+};
+
+std::optional<Hypothesis> best_hypothesis(const PointMatches& matches, const RansacOptions& options,
+                                          std::mt19937_64& random) {
+  std::optional<Hypothesis> best;
+  for (int i = 0; i < options.iterations; ++i) {
+    const Triple triple = draw_triple(matches.size(), random);
+    if (!may_be_rigid(matches, triple, options.inlier_distance)) continue;
+    const Eigen::Isometry3d motion = fit_rigid(matches, {triple.begin(), triple.end()});
+    Support support = find_support(matches, motion, options.inlier_distance);
+    if (!best || support.cost < best->support.cost) best = Hypothesis{motion, std::move(support)};
+  }
+  return best;
+}
+
+/// Fits to all inliers until that finds no better support: three matches alone carry their own noise.
+void refine(const PointMatches& matches, double inlier_distance, Hypothesis& hypothesis) {
+  while (hypothesis.support.inliers.size() >= 3) {
+    const Eigen::Isometry3d motion = fit_rigid(matches, hypothesis.support.inliers);
+    Support support = find_support(matches, motion, inlier_distance);
+    if (!(support.cost < hypothesis.support.cost)) return;
+    hypothesis = {motion, std::move(support)};
+  }
+}
+
+// --- features ---
+
+struct Features {
+  cv::Mat descriptors;  // float, one row a feature
+  std::vector<Eigen::Vector3d> points;
+};
+
+cv::Mat to_grey(const ColorImage& color) {
+  const cv::Mat rgb(color.height(), color.width(), CV_8UC3, const_cast<Rgb*>(color.data()));
+  cv::Mat grey;
+  cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
+  return grey;
+}
+
+bool has_depth(float depth) { return std::isfinite(depth) && depth > 0; }
+
+/// Where features may lie: on the object and with depth to back-project them.
+cv::Mat usable_pixels(const RgbdFrame& frame) {
+  cv::Mat usable(frame.depth.height(), frame.depth.width(), CV_8U);
+  for (int v = 0; v < usable.rows; ++v) {
+    for (int u = 0; u < usable.cols; ++u) {
+      const bool inside = frame.mask.empty() || frame.mask(u, v) != 0;
+      usable.at<std::uint8_t>(v, u) = inside && has_depth(frame.depth(u, v)) ? 255 : 0;
+    }
+  }
+  return usable;
+}
+
+Features find_features(const RgbdFrame& frame, const Camera& camera, const std::string& which) {
+  if (frame.color.empty()) {
+    throw DataError(fmt::format("{}: alignment `features` needs a colour image", which));
+  }
+  // A quarter of OpenCV's contrast threshold: cloth has little contrast, and the ratio test sorts out.
+  const auto sift = cv::SIFT::create(0, 3, 0.01);
+  std::vector<cv::KeyPoint> keypoints;
+  Features features;
+  sift->detectAndCompute(to_grey(frame.color), usable_pixels(frame), keypoints, features.descriptors);
+  if (keypoints.size() < 2) {
+    throw DataError(
+        fmt::format("{}: {} colour features with depth, too few to align", which, keypoints.size()));
+  }
+  for (const cv::KeyPoint& keypoint : keypoints) {
+    const float depth = frame.depth(cvRound(keypoint.pt.x), cvRound(keypoint.pt.y));
+    features.points.push_back(camera.unproject(keypoint.pt.x, keypoint.pt.y, depth));
+  }
+  return features;
+}
+
+flann::Matrix<float> rows_of(cv::Mat& descriptors) {
+  return {descriptors.ptr<float>(), static_cast<std::size_t>(descriptors.rows),
+          static_cast<std::size_t>(descriptors.cols)};
+}
+
+PointMatches match(Features& source, Features& target, double ratio) {
+  // The single tree searches exactly; FLANN's randomised trees are shuffled by std::random_device and
+  // give other matches in every run.
+  flann::Index<flann::L2<float>> index(rows_of(target.descriptors), flann::KDTreeSingleIndexParams());
+  index.buildIndex();
+  std::vector<std::vector<int>> indices;
+  std::vector<std::vector<float>> squared;
+  index.knnSearch(rows_of(source.descriptors), indices, squared, 2,
+                  flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED));
+  PointMatches matches;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (!(squared[i][0] < ratio * ratio * squared[i][1])) continue;
+    matches.from.push_back(source.points[i]);
+    matches.to.push_back(target.points[indices[i][0]]);
+  }
+  return matches;
+}
+
+class FeatureAlignment : public Alignment {
+ public:
+  explicit FeatureAlignment(const FeatureOptions& options) : options_(options) {}
+
+  AlignmentResult align(const FramePair& pair, std::uint64_t seed) const override {
+    const PointMatches matches = match_features(pair, options_.ratio);
+    const AlignmentResult result = fit_rigid_ransac(matches, options_.ransac, seed);
+    if (result.inliers < options_.min_inliers) {
+      throw DataError(
+          fmt::format("{}: {} of {} feature matches agree on a rigid motion, alignment needs at least {}",
+                      pair.name, result.inliers, result.matches, options_.min_inliers));
+    }
+    return result;
+  }
+
+ private:
+  FeatureOptions options_;
+};
+
+}  // namespace
+
+AlignmentResult fit_rigid_ransac(const PointMatches& matches, const RansacOptions& options,
+                                 std::uint64_t seed) {
+  AlignmentResult result;
+  result.matches = static_cast<int>(matches.size());
+  if (matches.size() < 3) return result;
+  std::mt19937_64 random(seed);
+  std::optional<Hypothesis> best = best_hypothesis(matches, options, random);
+  if (!best) return result;
+  refine(matches, options.inlier_distance, *best);
+  result.motion = best->motion;
+  result.inliers = static_cast<int>(best->support.inliers.size());
+  return result;
+}
+
+PointMatches match_features(const FramePair& pair, double ratio) {
+  Features source = find_features(pair.source, pair.camera, pair.name + ", source");
+  Features target = find_features(pair.target, pair.camera, pair.name + ", target");
+  return match(source, target, ratio);
+}
+
+void register_feature_alignment(Registry& registry) {
+  const FeatureOptions defaults;
+  registry.add<Alignment>(
+      "features", "Rigid motion that most matches of colour features agree with [SIFT, FLANN, RANSAC]",
+      {
+          real("ratio", defaults.ratio)
+              .range(0.1, 1)
+              .doc("Greatest ratio of a match's descriptor distance to that of the second best"),
+          integer("iterations", defaults.ransac.iterations)
+              .range(1, 1000000)
+              .doc("Triples that RANSAC tries"),
+          real("inlier_distance", defaults.ransac.inlier_distance)
+              .unit("mm")
+              .above(0)
+              .doc("A match agrees with a motion that brings its points nearer than this"),
+          integer("min_inliers", defaults.min_inliers)
+              .range(3, 100000)
+              .doc("Fewer agreeing matches are an error"),
+      },
+      [](const Parameters& parameters, const Registry&) {
+        FeatureOptions options;
+        options.ratio = parameters.real("ratio");
+        options.min_inliers = static_cast<int>(parameters.integer("min_inliers"));
+        options.ransac.iterations = static_cast<int>(parameters.integer("iterations"));
+        options.ransac.inlier_distance = parameters.real("inlier_distance");
+        return std::make_unique<FeatureAlignment>(options);
+      });
+}
+
+}  // namespace pliant

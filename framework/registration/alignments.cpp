@@ -1,0 +1,24 @@
+#include "framework/registration/alignments.h"
+
+#include <memory>
+
+#include "framework/registration/align_features.h"
+#include "framework/registration/alignment.h"
+
+namespace pliant {
+namespace {
+
+class NoAlignment : public Alignment {
+ public:
+  AlignmentResult align(const FramePair&, std::uint64_t) const override { return {}; }
+};
+
+}  // namespace
+
+void register_alignments(Registry& registry) {
+  registry.add<Alignment>("none", "Leaves the source where it is", {},
+                          [](const Parameters&, const Registry&) { return std::make_unique<NoAlignment>(); });
+  register_feature_alignment(registry);
+}
+
+}  // namespace pliant

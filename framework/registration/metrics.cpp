@@ -1,0 +1,160 @@
+#include "framework/registration/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <flann/flann.hpp>
+#include <limits>
+#include <utility>
+
+#include "framework/core/error.h"
+
+namespace pliant {
+namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+constexpr float moving_distance = 1;  // mm
+
+bool is_point(const Eigen::Vector3f& point) { return point.allFinite() && point.z() > 0; }
+
+struct Spread {
+  double mean = 0;
+  double sd = 0;
+};
+
+/// Mean and population standard deviation of values without NaN; zeros when there are none.
+Spread spread_of(const std::vector<float>& values) {
+  Spread spread;
+  if (values.empty()) return spread;
+  for (const float value : values) spread.mean += value;
+  spread.mean /= static_cast<double>(values.size());
+  double squares = 0;
+  for (const float value : values) squares += (value - spread.mean) * (value - spread.mean);
+  spread.sd = std::sqrt(squares / static_cast<double>(values.size()));
+  return spread;
+}
+
+std::vector<float> known(std::vector<float> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](float value) { return std::isnan(value); }),
+               values.end());
+  return values;
+}
+
+/// The smallest value that at least 95 of 100 do not exceed.
+double percentile_95(std::vector<float> values) {
+  const std::size_t rank = (values.size() * 95 + 99) / 100 - 1;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
+  return values[rank];
+}
+
+}  // namespace
+
+struct Evaluation::Index {
+  using Tree = flann::Index<flann::L2_Simple<float>>;
+
+  explicit Index(const Image<Eigen::Vector3f>& map) {
+    for (const Eigen::Vector3f& point : map.pixels()) {
+      if (is_point(point)) coordinates.insert(coordinates.end(), point.data(), point.data() + 3);
+    }
+    if (coordinates.empty()) return;
+    // A single tree searches exactly, so the answer does not depend on how it was built.
+    tree = std::make_unique<Tree>(flann::Matrix<float>(coordinates.data(), coordinates.size() / 3, 3),
+                                  flann::KDTreeSingleIndexParams());
+    tree->buildIndex();
+  }
+
+  /// Squared distance of each query (x y z in turn) to its nearest point.
+  std::vector<float> squared_distances(std::vector<float> queries) const {
+    const std::size_t count = queries.size() / 3;
+    std::vector<int> nearest(count);
+    std::vector<float> squared(count);
+    flann::Matrix<int> indices(nearest.data(), count, 1);
+    flann::Matrix<float> distances(squared.data(), count, 1);
+    tree->knnSearch(flann::Matrix<float>(queries.data(), count, 3), indices, distances, 1,
+                    flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED));
+    return squared;
+  }
+
+  std::vector<float> coordinates;  // the tree points into it
+  std::unique_ptr<Tree> tree;
+};
+
+Evaluation::Evaluation(const FramePair& pair, const Surface& source, SurfaceMap target)
+    : camera_(pair.camera), target_(std::move(target)), index_(std::make_unique<Index>(target_.points)) {
+  if (index_->tree == nullptr) throw DataError(pair.name + ": the target has no point to measure against");
+  if (pair.scene_flow.empty()) return;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const Eigen::Vector3f flow = pair.scene_flow(source.pixels[i].x(), source.pixels[i].y());
+    const bool has_truth = flow.allFinite();
+    truth_.push_back(has_truth ? source.points[i] + flow : Eigen::Vector3f::Constant(unknown));
+    moving_.push_back(has_truth && flow.norm() > moving_distance);
+  }
+}
+
+Evaluation::~Evaluation() = default;
+
+std::vector<float> Evaluation::residuals(const std::vector<Eigen::Vector3f>& points) const {
+  std::vector<float> distances(points.size(), unknown);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_point(points[i])) continue;
+    const Eigen::Vector2d pixel = camera_.project(points[i].cast<double>()).array().round();
+    // Compared before the conversion: a point beside the camera lands further out than an int reaches.
+    const bool inside = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < target_.points.width() &&
+                        pixel.y() < target_.points.height();
+    if (!inside) continue;
+    const Eigen::Vector3f& target = target_.points(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+    if (is_point(target)) distances[i] = (points[i] - target).norm();
+  }
+  return distances;
+}
+
+std::vector<float> Evaluation::nearest(const std::vector<Eigen::Vector3f>& points) const {
+  std::vector<std::size_t> finite;
+  std::vector<float> queries;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) continue;
+    finite.push_back(i);
+    queries.insert(queries.end(), points[i].data(), points[i].data() + 3);
+  }
+  const std::vector<float> squared = index_->squared_distances(std::move(queries));
+  std::vector<float> distances(points.size(), unknown);
+  for (std::size_t i = 0; i < finite.size(); ++i) distances[finite[i]] = std::sqrt(squared[i]);
+  return distances;
+}
+
+std::vector<float> Evaluation::end_point_errors(const std::vector<Eigen::Vector3f>& points) const {
+  std::vector<float> distances;
+  for (std::size_t i = 0; i < truth_.size(); ++i) {
+    const bool has_both = points[i].allFinite() && truth_[i].allFinite();
+    distances.push_back(has_both ? (points[i] - truth_[i]).norm() : unknown);
+  }
+  return distances;
+}
+
+Metrics Evaluation::measure(const std::vector<Eigen::Vector3f>& points) const {
+  Metrics metrics;
+  const std::vector<float> landed = known(residuals(points));
+  const Spread residual = spread_of(landed);
+  metrics.residual_mean = residual.mean;
+  metrics.residual_sd = residual.sd;
+  if (!points.empty())
+    metrics.coverage = static_cast<double>(landed.size()) / static_cast<double>(points.size());
+  const Spread near = spread_of(known(nearest(points)));
+  metrics.nearest_mean = near.mean;
+  metrics.nearest_sd = near.sd;
+  metrics.truth = measure_truth(points);
+  return metrics;
+}
+
+std::optional<Metrics::Truth> Evaluation::measure_truth(const std::vector<Eigen::Vector3f>& points) const {
+  const std::vector<float> errors = end_point_errors(points);
+  const std::vector<float> all = known(errors);
+  if (all.empty()) return std::nullopt;
+  std::vector<float> moving;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (moving_[i] && !std::isnan(errors[i])) moving.push_back(errors[i]);
+  }
+  const Spread spread = spread_of(all);
+  return Metrics::Truth{spread.mean, spread.sd, percentile_95(all), spread_of(moving).mean};
+}
+
+}  // namespace pliant

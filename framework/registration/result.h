@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/device/device.h"
+#include "framework/geometry/surface.h"
+#include "framework/registration/alignment.h"
+
+namespace pliant {
+
+/// What one registration came to. Vectors over points follow the order of `source`.
+struct RegistrationResult {
+  Surface source;                               ///< as given, before any alignment
+  std::vector<Eigen::Vector3f> aligned_points;  ///< mm, after the initial alignment
+  std::vector<Eigen::Vector3f> points;          ///< mm, after non-rigid registration
+  std::vector<Eigen::Vector3f> normals;         ///< of `points`
+  AlignmentResult alignment;
+  std::vector<Eigen::Vector3f> node_positions;  ///< mm, nodes of the last graph on the aligned source
+
+  struct Counts {
+    int source_points = 0;
+    int nodes = 0;
+    int edges = 0;
+    int constraints = 0;
+    int unknowns = 0;
+    int outer_iterations = 0;
+    int solver_iterations = 0;
+  } counts;
+
+  struct Energy {
+    double initial = 0;
+    double final = 0;
+    std::vector<double> per_iteration;  ///< at the end of each outer iteration
+  } energy;
+
+  struct SolverRecord {
+    std::string name;
+    std::string linear_solver;
+    std::string termination;  ///< of the last solve
+  } solver;
+
+  std::string termination;  ///< why the outer loop ended
+  double total_ms = 0;
+  StageTimes time_ms;
+};
+
+}  // namespace pliant

@@ -1,0 +1,116 @@
+#include "solvers/gauss_newton/dense_cholesky.h"
+
+#include "framework/deformation/warp.h"
+#include "solvers/gauss_newton/dense_cholesky.cl.embed.h"
+#include "solvers/gauss_newton/linear_solver.h"
+
+namespace pliant {
+namespace {
+
+constexpr int block = 64;  // BLOCK in dense_cholesky.cl
+
+class BoundDenseCholesky : public BoundLinearSolver {
+ public:
+  explicit BoundDenseCholesky(NormalEquations& equations)
+      : equations_(equations),
+        device_(equations.device()),
+        unknowns_(affine_size * equations.node_count()),
+        n_((unknowns_ + block - 1) / block * block),
+        blocks_(n_ / block),
+        matrix_(device_.allocate(sizeof(float) * size() * size())),
+        transposed_(device_.allocate(sizeof(float) * block * size())),
+        scratch_(device_.allocate(sizeof(float) * block * block)),
+        inverses_(device_.allocate(sizeof(float) * block * size())),
+        inverses_transposed_(device_.allocate(sizeof(float) * block * size())),
+        step_(device_.allocate(sizeof(float) * size())) {}
+
+  void solve(const cl::Buffer& status) override {
+    form(status);
+    factor(status);
+    substitute(status);
+  }
+  const cl::Buffer& step() const override { return step_; }
+
+ private:
+  std::size_t size() const { return static_cast<std::size_t>(n_); }
+  cl::Kernel kernel(const char* name) {
+    return device_.kernel(embedded::solvers_gauss_newton_dense_cholesky_cl, name);
+  }
+  // The inverse of diagonal block k inside the buffer of all of them.
+  cl::Buffer at_block(cl::Buffer& buffer, int k) const {
+    const cl_buffer_region region{sizeof(float) * block * block * static_cast<std::size_t>(k),
+                                  sizeof(float) * block * block};
+    return buffer.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region);
+  }
+
+  void form(const cl::Buffer& status) {
+    auto clear = kernel("clear_matrix");
+    auto scatter = kernel("scatter");
+    auto negate = kernel("negate");
+    device_.run("mm", clear, size(), 16, status, unknowns_, n_, matrix_);
+    device_.run("mm", scatter, equations_.block_rows().size(), 16, status, equations_.block_count(), n_,
+                equations_.block_rows().device(device_), equations_.block_columns().device(device_),
+                equations_.blocks(), matrix_);
+    device_.run("solver", negate, size(), 64, status, unknowns_, n_, equations_.gradient(), step_);
+  }
+
+  void factor(const cl::Buffer& status) {
+    auto diagonal = kernel("diagonal");
+    auto panel = kernel("panel");
+    auto update = kernel("update");
+    for (int k = 0; k < blocks_; ++k) {
+      const auto inverse_transposed = at_block(inverses_transposed_, k);
+      device_.run("cholesky", diagonal, 1, 1, status, k, n_, matrix_, scratch_, at_block(inverses_, k),
+                  inverse_transposed);
+      const auto rest = static_cast<std::size_t>(n_ - (k + 1) * block);
+      device_.run("cholesky", panel, rest / 4, 1, status, k, n_, matrix_, inverse_transposed, transposed_);
+      device_.run("cholesky", update, rest / 8 * (rest / 32), 1, status, k, n_,
+                  static_cast<cl_int>(rest / 32), matrix_, transposed_);
+    }
+  }
+
+  void substitute(const cl::Buffer& status) {
+    auto diagonal = kernel("solve_diagonal");
+    auto below = kernel("eliminate_below");
+    auto above = kernel("eliminate_above");
+    for (int k = 0; k < blocks_; ++k) {
+      device_.run("solver", diagonal, 1, 1, status, k, at_block(inverses_, k), step_);
+      device_.run("solver", below, static_cast<std::size_t>(n_ - (k + 1) * block), 64, status, k, n_, matrix_,
+                  step_);
+    }
+    for (int k = blocks_ - 1; k >= 0; --k) {
+      device_.run("solver", diagonal, 1, 1, status, k, at_block(inverses_transposed_, k), step_);
+      device_.run("solver", above, static_cast<std::size_t>(4 * k), 4, status, k, n_, matrix_, step_);
+    }
+  }
+
+  NormalEquations& equations_;
+  Device& device_;
+  cl_int unknowns_;
+  cl_int n_;
+  cl_int blocks_;
+  cl::Buffer matrix_;
+  cl::Buffer transposed_;
+  cl::Buffer scratch_;
+  cl::Buffer inverses_;
+  cl::Buffer inverses_transposed_;
+  cl::Buffer step_;
+};
+
+class DenseCholesky : public LinearSolver {
+ public:
+  std::string name() const override { return "dense_cholesky"; }
+  std::unique_ptr<BoundLinearSolver> bind(NormalEquations& equations) const override {
+    return std::make_unique<BoundDenseCholesky>(equations);
+  }
+};
+
+}  // namespace
+
+void register_dense_cholesky(Registry& registry) {
+  registry.add<LinearSolver>(
+      "dense_cholesky", "Dense L L^T and triangular solves on the device, single precision [thesis 4.6]", {},
+      [](const Parameters&, const Registry&) { return std::make_unique<DenseCholesky>(); });
+}
+
+}  // namespace pliant

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "framework/core/registry.h"
+#include "solvers/ceres_lm/ceres_lm.h"
+#include "solvers/gauss_newton/dense_cholesky.h"
+#include "solvers/gauss_newton/gauss_newton.h"
+
+namespace pliant {
+
+/// Adds every solver and linear solver.
+inline void register_solvers(Registry& registry) {
+  register_gauss_newton(registry);
+  register_ceres_lm(registry);
+  register_dense_cholesky(registry);
+}
+
+}  // namespace pliant
