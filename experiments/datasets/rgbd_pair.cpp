@@ -16,7 +16,8 @@ namespace {
 
 /// Throws unless `image` (of the file `path`) has the size of the depth image it belongs to.
 template <class AnyImage, class Depth>
-void check_size(const AnyImage& image, const std::string& path, const Depth& depth, const std::string& depth_path) {
+void check_size(const AnyImage& image, const std::string& path, const Depth& depth,
+                const std::string& depth_path) {
   if (image.width() == depth.width() && image.height() == depth.height()) return;
   throw DataError(fmt::format("{}: {}x{} pixels, but the depth image {} has {}x{}", path, image.width(),
                               image.height(), depth_path, depth.width(), depth.height()));
@@ -31,7 +32,8 @@ bool has_point(const RgbdFrame& frame, std::size_t pixel) {
   return frame.depth.pixels()[pixel] > 0 && (frame.mask.empty() || frame.mask.pixels()[pixel] != 0);
 }
 
-void check_has_points(const RgbdFrame& frame, const RgbdPair::FrameFiles& files, std::optional<double> max_depth) {
+void check_has_points(const RgbdFrame& frame, const RgbdPair::FrameFiles& files,
+                      std::optional<double> max_depth) {
   for (std::size_t i = 0; i < frame.depth.size(); ++i) {
     if (has_point(frame, i)) return;
   }
@@ -115,7 +117,11 @@ void register_rgbd_pair(Registry& registry) {
           group("target", frame_table()).doc("the image it is deformed to"),
           path("intrinsics").doc("text file with the 3x3 or 4x4 camera matrix in pixels"),
           path("scene_flow").optional().doc("true motion of every source pixel (.sflow)"),
-          real("max_depth").unit("mm").above(0).optional().doc("farther depth is dropped; nothing by default"),
+          real("max_depth")
+              .unit("mm")
+              .above(0)
+              .optional()
+              .doc("farther depth is dropped; nothing by default"),
       },
       [](const Parameters& parameters, const Registry&) -> std::unique_ptr<DataSource> {
         RgbdPair::Settings settings;

@@ -46,9 +46,7 @@ std::uint8_t channel_value(double s, double t, std::uint64_t channel) {
   return static_cast<std::uint8_t>(std::lround(sum / kCells.size() * 255));
 }
 
-Eigen::Vector2d ray(const Camera& camera, int u, int v) {
-  return camera.unproject(u, v, 1).head<2>();
-}
+Eigen::Vector2d ray(const Camera& camera, int u, int v) { return camera.unproject(u, v, 1).head<2>(); }
 
 /// What the camera sees of the sheet where `see` tells which material a ray meets and `place` where it is.
 template <class See, class Place>
@@ -89,9 +87,7 @@ void check_is_seen(const DepthImage& depth, const char* which) {
 }  // namespace
 
 BendingSheet::BendingSheet(const Shape& shape)
-    : shape_(shape),
-      w_(2 * std::numbers::pi * shape.frequency / shape.width),
-      k_(shape.amplitude * w_) {
+    : shape_(shape), w_(2 * std::numbers::pi * shape.frequency / shape.width), k_(shape.amplitude * w_) {
   check();
 }
 
@@ -107,10 +103,10 @@ void BendingSheet::check() const {
   const double steepest_ray = shape_.width / 2 / nearest;
   const double limit = 1 / std::hypot(1, steepest_ray);
   if (k_ >= limit) {
-    throw ConfigError(
-        fmt::format("synthetic_sheet: the sheet hides a part of itself; expected amplitude < {:.1f} mm at this "
-                    "frequency and width, or a lower frequency",
-                    limit / w_));
+    throw ConfigError(fmt::format(
+        "synthetic_sheet: the sheet hides a part of itself; expected amplitude < {:.1f} mm at this "
+        "frequency and width, or a lower frequency",
+        limit / w_));
   }
 }
 
@@ -180,11 +176,14 @@ FramePair SyntheticSheet::load(std::uint64_t seed) const {
 void register_synthetic_sheet(Registry& registry) {
   const BendingSheet::Shape shape;
   registry.add<DataSource>(
-      "synthetic_sheet", "A flat sheet that bends without stretching, with its true motion [thesis data set I]",
+      "synthetic_sheet",
+      "A flat sheet that bends without stretching, with its true motion [thesis data set I]",
       {
           real("amplitude", shape.amplitude).unit("mm").at_least(0).doc("height of the wave over its middle"),
           real("frequency", shape.frequency).above(0).doc("waves over the width of the sheet"),
-          real("approach", shape.approach).unit("mm").doc("how far the whole sheet comes nearer while bending"),
+          real("approach", shape.approach)
+              .unit("mm")
+              .doc("how far the whole sheet comes nearer while bending"),
           real("noise", 0).range(0, 10).doc("strength of Kinect-like depth noise: 0 none, 1 as the camera"),
           real("sheet_width", shape.width).unit("mm").above(0).doc("size of the sheet in x, where it bends"),
           real("sheet_height", shape.height).unit("mm").above(0).doc("size of the sheet in y"),

@@ -75,7 +75,7 @@ std::vector<double> ticks(const ColorScale& scale) {
   const double step = round_up((scale.highest - scale.lowest) / 6.0);
   std::vector<double> at;
   for (double k = std::ceil(scale.lowest / step - 1e-6); k * step <= scale.highest + 1e-6 * step; ++k) {
-    at.push_back(k * step);
+    at.push_back(k * step + 0.0);  // no "-0"
   }
   return at;
 }

@@ -55,11 +55,13 @@ ColorScale depth_scale(const RegistrationResult& result) {
   std::vector<float> values = depths(result.source.points);
   const std::vector<float> moved = depths(result.points);
   values.insert(values.end(), moved.begin(), moved.end());
-  const float nearest = quantile(values, 0.005);
-  const float furthest = quantile(values, 0.995);
-  const auto step = static_cast<float>(round_up(std::max(furthest - nearest, 1.0f) / 10));
-  return {ColorScale::Map::depth, step * std::floor(nearest / step),
-          step * (std::floor(furthest / step) + 1)};
+  // The rim of a mask often bleeds onto the background: a twentieth may lie anywhere.
+  const float nearest = quantile(values, 0.05);
+  const float furthest = quantile(values, 0.95);
+  const float air = std::max(0.25f * (furthest - nearest), 1.0f);
+  const auto step = static_cast<float>(round_up((furthest - nearest + 2 * air) / 10));
+  return {ColorScale::Map::depth, step * std::floor((nearest - air) / step),
+          step * std::ceil((furthest + air) / step)};
 }
 
 /// Fits what non-rigid registration starts from: before the alignment errors may be a hundred times as
@@ -72,8 +74,8 @@ ColorScale error_scale(const std::vector<float>& aligned) {
 std::string count_points(std::size_t count) { return fmt::format("{} points", count); }
 
 std::string spread(const Metrics& metrics) {
-  return fmt::format("distance to the nearest target point: mean {:.2f} mm, standard deviation {:.2f} mm",
-                     metrics.nearest_mean, metrics.nearest_sd);
+  return fmt::format("to the nearest target point: mean {:.2f} mm, sd {:.2f} mm", metrics.nearest_mean,
+                     metrics.nearest_sd);
 }
 
 Picture draw(std::string file, std::string caption, const Image<float>& values, const ColorScale& scale,

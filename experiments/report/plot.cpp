@@ -9,9 +9,9 @@
 namespace pliant {
 namespace {
 
-constexpr double width = 720;
-constexpr double height = 320;
-constexpr double left = 84;
+constexpr double width = 560;
+constexpr double height = 300;
+constexpr double left = 76;
 constexpr double right = 20;
 constexpr double top = 16;
 constexpr double bottom = 52;

@@ -158,7 +158,7 @@ std::optional<ConfigNode> read_set(const std::string& set, int order, ConfigErro
       std::make_shared<const ConfigOrigin>(ConfigOrigin{"--set " + path, fs::current_path(), false, order});
   const ConfigMark mark{origin, 0, 0};
   const auto keys = split_keys(path);
-  if (equals == std::string::npos || keys.empty()) {
+  if (equals == std::string::npos || keys.empty() || !is_utf8(path)) {
     errors.add(mark, "not understood; expected KEY=VALUE with a key like a.b.c");
     return {};
   }

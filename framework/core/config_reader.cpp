@@ -1,5 +1,7 @@
 #include "framework/core/config_reader.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <sstream>
 
@@ -16,16 +18,71 @@ constexpr std::size_t max_nodes = 20000;
 constexpr std::size_t max_depth = 64;
 constexpr std::size_t max_key_length = 200;
 
+/// How many bytes the UTF-8 letter that begins at `at` has; 0 where there is no proper one.
+std::size_t letter_size(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) -> unsigned {
+    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0;
+  };
+  if (byte(0) < 0x80) return 1;
+  const std::size_t size = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  unsigned letter = byte(0) & (0xffu >> (size + 1));
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    letter = letter << 6 | (byte(i) & 0x3f);
+  }
+  // The smallest letter that needs so many bytes: a shorter one spelt long is not proper.
+  constexpr std::array<unsigned, 5> smallest{0, 0, 0x80, 0x800, 0x10000};
+  const bool is_surrogate = letter >= 0xd800 && letter < 0xe000;
+  const bool is_proper = byte(0) >= 0xc0 && byte(0) < 0xf8 && letter >= smallest[size] && letter <= 0x10ffff;
+  return is_proper && !is_surrogate ? size : 0;
+}
+
+/// Where the first byte stands that is not UTF-8; the size of the text where there is none.
+std::size_t first_not_utf8(const std::string& text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t size = letter_size(text, at);
+    if (size == 0) return at;
+    at += size;
+  }
+  return at;
+}
+
+/// Columns in letters: yaml-cpp counts bytes, an editor does not.
+class Columns {
+ public:
+  explicit Columns(const std::string& text) : letters_(text.size() + 1) {
+    for (std::size_t i = 0; i < text.size(); ++i)
+      letters_[i + 1] = letters_[i] + ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80 ? 1 : 0);
+  }
+
+  /// The column, from 1, of a mark of the text.
+  int of(const YAML::Mark& mark) const {
+    const bool is_inside = mark.column <= mark.pos && mark.pos < static_cast<int>(letters_.size());
+    if (!is_inside) return mark.column + 1;
+    return letters_[mark.pos] - letters_[mark.pos - mark.column] + 1;
+  }
+
+ private:
+  std::vector<int> letters_;  ///< how many begin before each byte
+};
+
+/// YAML that is well-formed and yet no experiment.
+struct Refused {
+  ConfigMark mark;
+  std::string why;
+};
+
 /// Builds the tree from the parser's events: unlike YAML::Node they show keys that stand twice.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(std::shared_ptr<const ConfigOrigin> origin, ConfigErrors& errors)
-      : origin_(std::move(origin)), errors_(errors) {}
+  TreeBuilder(const std::string& text, std::shared_ptr<const ConfigOrigin> origin, ConfigErrors& errors)
+      : columns_(text), origin_(std::move(origin)), errors_(errors) {}
 
   ConfigNode take() { return std::move(root_); }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (seen_document_) throw YAML::ParserException(mark, "a second document begins; expected only one");
+    if (seen_document_) throw Refused{place(mark), "a second document begins; expected only one"};
     seen_document_ = true;
   }
   void OnDocumentEnd() override {}
@@ -36,7 +93,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchors_.find(anchor);
-    if (found == anchors_.end()) throw YAML::ParserException(mark, "an alias stands inside its own anchor");
+    if (found == anchors_.end()) throw Refused{place(mark), "an alias stands inside its own anchor"};
     count(mark, found->second.size);
     add(ConfigNode(found->second.node));
   }
@@ -62,7 +119,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void OnMapEnd() override { close(); }
 
-  ConfigMark place(const YAML::Mark& mark) const { return {origin_, mark.line + 1, mark.column + 1}; }
+  ConfigMark place(const YAML::Mark& mark) const { return {origin_, mark.line + 1, columns_.of(mark)}; }
 
  private:
   struct Key {
@@ -81,9 +138,9 @@ class TreeBuilder : public YAML::EventHandler {
     std::size_t size = 0;
   };
 
-  static void check_tag(const YAML::Mark& mark, const std::string& tag) {
+  void check_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (!tag.empty() && tag != "?" && tag != "!")
-      throw YAML::ParserException(mark, "the tag " + in_quotes(tag) + " is not supported");
+      throw Refused{place(mark), "the tag " + in_quotes(tag) + " is not supported"};
   }
 
   ConfigNode make(ConfigNode::Kind kind, const YAML::Mark& mark) {
@@ -97,14 +154,13 @@ class TreeBuilder : public YAML::EventHandler {
   void count(const YAML::Mark& mark, std::size_t nodes) {
     nodes_ += nodes;
     if (nodes_ > max_nodes)
-      throw YAML::ParserException(mark,
-                                  fmt::format("more than {} values; expected an experiment", max_nodes));
+      throw Refused{place(mark), fmt::format("more than {} values; expected an experiment", max_nodes)};
   }
 
   void open(ConfigNode::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     check_tag(mark, tag);
     if (stack_.size() >= max_depth)
-      throw YAML::ParserException(mark, fmt::format("nested more than {} levels deep", max_depth));
+      throw Refused{place(mark), fmt::format("nested more than {} levels deep", max_depth)};
     Frame frame;
     frame.node = make(kind, mark);
     frame.anchor = anchor;
@@ -142,11 +198,10 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   static void begin_entry(Frame& frame, ConfigNode key) {
-    const YAML::Mark mark = yaml_mark(key.mark);
     if (key.kind != ConfigNode::Kind::scalar || key.text.empty())
-      throw YAML::ParserException(mark, "a key is missing or no word; expected 'key: value'");
+      throw Refused{key.mark, "a key is missing or no word; expected 'key: value'"};
     if (key.text.size() > max_key_length)
-      throw YAML::ParserException(mark, fmt::format("a key of more than {} letters", max_key_length));
+      throw Refused{key.mark, fmt::format("a key of more than {} letters", max_key_length)};
     frame.key = {std::move(key.text), key.mark};
     frame.has_key = true;
   }
@@ -162,13 +217,7 @@ class TreeBuilder : public YAML::EventHandler {
                               in_quotes(frame.key.text), first->second.line, first->second.column));
   }
 
-  static YAML::Mark yaml_mark(const ConfigMark& mark) {
-    YAML::Mark yaml;
-    yaml.line = mark.line - 1;
-    yaml.column = mark.column - 1;
-    return yaml;
-  }
-
+  Columns columns_;
   std::shared_ptr<const ConfigOrigin> origin_;
   ConfigErrors& errors_;
   bool seen_document_ = false;
@@ -180,9 +229,19 @@ class TreeBuilder : public YAML::EventHandler {
 
 }  // namespace
 
+bool is_utf8(const std::string& text) { return first_not_utf8(text) == text.size(); }
+
 std::optional<ConfigNode> read_yaml(const std::string& text, std::shared_ptr<const ConfigOrigin> origin,
                                     ConfigErrors& errors) {
-  TreeBuilder builder(origin, errors);
+  TreeBuilder builder(text, origin, errors);
+  if (const std::size_t at = first_not_utf8(text); at < text.size()) {
+    YAML::Mark mark;
+    mark.pos = static_cast<int>(at);
+    mark.line = static_cast<int>(std::count(text.begin(), text.begin() + mark.pos, '\n'));
+    mark.column = mark.pos - static_cast<int>(text.rfind('\n', at) + 1);
+    errors.add(builder.place(mark), "a letter that is not UTF-8; expected a text in UTF-8");
+    return std::nullopt;
+  }
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
@@ -191,6 +250,9 @@ std::optional<ConfigNode> read_yaml(const std::string& text, std::shared_ptr<con
   } catch (const YAML::Exception& error) {
     const ConfigMark mark = error.mark.is_null() ? ConfigMark{origin, 0, 0} : builder.place(error.mark);
     errors.add(mark, "not valid YAML: " + error.msg);
+    return std::nullopt;
+  } catch (const Refused& refused) {
+    errors.add(refused.mark, refused.why);
     return std::nullopt;
   }
   return builder.take();

@@ -1,8 +1,8 @@
 #include "framework/core/config_resolver.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ std::string one_of(const std::vector<std::string>& choices) {
   return fmt::format("{}{}", choices.size() > 1 ? "one of " : "", fmt::join(choices, ", "));
 }
 
-/// The number that the whole of `text` spells out.
+/// The finite number that the whole of `text` spells out.
 template <class Number>
 std::optional<Number> parse_number(const std::string& text) {
   const char* first = text.data();
@@ -86,7 +86,7 @@ ordered_json typed_scalar(const Parameter& row, const std::string& text) {
   }
   if (row.type() == ParameterType::real) {
     const auto value = parse_number<double>(text);
-    if (value && std::isfinite(*value) && in_range(row, *value)) return *value;
+    if (value && in_range(row, *value)) return *value;
     return nullptr;
   }
   if (row.type() == ParameterType::choice) {

@@ -41,7 +41,8 @@ std::string nearest(const std::string& word, const std::vector<std::string>& cho
   std::string best;
   std::size_t best_distance = 0;
   for (const auto& choice : choices) {
-    const auto [shorter, longer] = std::minmax(word.size(), choice.size());
+    const std::size_t longer = std::max(word.size(), choice.size());
+    const std::size_t shorter = std::min(word.size(), choice.size());
     // Words of very different length are never near; skipping them keeps huge keys cheap.
     if (longer - shorter > tolerance(longer)) continue;
     const std::size_t distance = edit_distance(wanted, lower(choice));

@@ -246,11 +246,15 @@ void add_lines(const ParameterTable& table, const std::string& prefix, std::vect
   }
 }
 
-std::string aligned(const std::vector<Line>& lines) {
+/// Lines under a head; a column that is empty in all of them is left out.
+std::string aligned(const Line& head, std::vector<Line> lines) {
   std::array<std::size_t, columns> widths{};
   for (const auto& line : lines) {
-    for (std::size_t i = 0; i < columns; ++i) widths[i] = std::max(widths[i], line[i].size());
+    for (std::size_t i = 0; i < columns; ++i) {
+      if (!line[i].empty()) widths[i] = std::max({widths[i], line[i].size(), head[i].size()});
+    }
   }
+  lines.insert(lines.begin(), head);
   std::string text;
   for (const auto& line : lines) {
     std::string row = " ";
@@ -271,9 +275,9 @@ ordered_json json_schema(const ParameterTable& root, const Registry& registry) {
 std::string describe(const ComponentInfo& info) {
   const std::string head = fmt::format("{} ({})\n  {}\n\n", info.name, info.kind, info.doc);
   if (info.parameters.rows().empty()) return head + "  It has no parameters.\n";
-  std::vector<Line> lines{{"parameter", "type", "unit", "default", "range", "what it is"}};
+  std::vector<Line> lines;
   add_lines(info.parameters, "", lines);
-  return head + aligned(lines);
+  return head + aligned({"parameter", "type", "unit", "default", "range", "what it is"}, std::move(lines));
 }
 
 std::string list_components(const Registry& registry, const std::string& kind) {

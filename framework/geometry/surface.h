@@ -30,7 +30,8 @@ struct SurfaceMap {
 /// the mask where there is one. A normal comes from the plane fitted to the valid points of the
 /// (2 radius + 1)^2 window whose depth differs from the centre's by less than `depth_step` mm
 /// [thesis 3.1]; at least three neighbours are needed.
-SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius = 2, float depth_step = 30);
+SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius = 2,
+                            float depth_step = 30);
 
 /// The valid points of a map as a list, with colours from `color` when that is not empty.
 Surface make_surface(const SurfaceMap& map, const ColorImage& color);

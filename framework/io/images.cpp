@@ -115,9 +115,8 @@ void write_color(const std::string& path, const ColorImage& color) {
 }
 
 void write_mask(const std::string& path, const MaskImage& mask) {
-  write_png(path, to_matrix<std::uint8_t>(mask, [](std::uint8_t value) -> std::uint8_t {
-              return value != 0 ? 255 : 0;
-            }));
+  write_png(path, to_matrix<std::uint8_t>(
+                      mask, [](std::uint8_t value) -> std::uint8_t { return value != 0 ? 255 : 0; }));
 }
 
 }  // namespace pliant

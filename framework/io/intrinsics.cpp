@@ -43,8 +43,8 @@ void check_pinhole(const std::vector<double>& k, std::size_t columns, const std:
     const std::size_t column = i % columns;
     const bool is_free = row < 2 && (column == row || column == 2);
     if (!is_free && k[i] != (row == column ? 1.0 : 0.0)) {
-      throw DataError(fmt::format("{}: {} in row {}, column {}: expected fx 0 cx / 0 fy cy / 0 0 1", path, k[i],
-                                  row + 1, column + 1));
+      throw DataError(fmt::format("{}: {} in row {}, column {}: expected fx 0 cx / 0 fy cy / 0 0 1", path,
+                                  k[i], row + 1, column + 1));
     }
   }
 }
@@ -63,8 +63,8 @@ void check_size(const Camera& camera, const std::string& path) {
   const bool other_size = across > 0 && down > 0 && differs(across, kSameSize) && differs(down, kSameSize) &&
                           !differs(across / down, kSameProportions);
   if (is_outside(across) || is_outside(down) || other_size) {
-    throw DataError(fmt::format("{}: principal point ({}, {}) does not fit images of {}x{} pixels", path, camera.cx,
-                                camera.cy, camera.width, camera.height));
+    throw DataError(fmt::format("{}: principal point ({}, {}) does not fit images of {}x{} pixels", path,
+                                camera.cx, camera.cy, camera.width, camera.height));
   }
 }
 

@@ -29,7 +29,8 @@ Header check_header(const std::vector<std::uint8_t>& bytes, const std::string& p
   }
   std::memcpy(header.data(), bytes.data(), sizeof(header));
   const auto [width, height, channels] = header;
-  if (channels != 3) throw DataError(fmt::format("{}: {} channels, expected 3 of scene flow", path, channels));
+  if (channels != 3)
+    throw DataError(fmt::format("{}: {} channels, expected 3 of scene flow", path, channels));
   constexpr std::uint32_t kLargest = 1u << 16;
   if (width == 0 || height == 0 || width > kLargest || height > kLargest) {
     throw DataError(fmt::format("{}: a size of {}x{} pixels is no scene flow", path, width, height));
@@ -37,8 +38,8 @@ Header check_header(const std::vector<std::uint8_t>& bytes, const std::string& p
   const std::uint64_t expected = sizeof(header) + std::uint64_t{width} * height * channels * sizeof(float);
   if (bytes.size() != expected) {
     throw DataError(fmt::format("{}: {}: {} bytes, expected {} for {}x{} pixels", path,
-                                bytes.size() < expected ? "truncated" : "too long", bytes.size(), expected, width,
-                                height));
+                                bytes.size() < expected ? "truncated" : "too long", bytes.size(), expected,
+                                width, height));
   }
   return header;
 }
@@ -59,7 +60,8 @@ Eigen::Vector3f to_motion(const Eigen::Vector3f& metres, int u, int v, const std
 Image<Eigen::Vector3f> read_scene_flow(const std::string& path) {
   const auto bytes = read_file(path);
   const auto header = check_header(bytes, path);
-  Image<Eigen::Vector3f> flow(static_cast<int>(header[0]), static_cast<int>(header[1]));
+  Image<Eigen::Vector3f> flow(static_cast<int>(header[0]), static_cast<int>(header[1]),
+                              Eigen::Vector3f::Zero());
   std::vector<float> values(3 * flow.size());
   std::memcpy(values.data(), bytes.data() + sizeof(header), values.size() * sizeof(float));
   for (std::size_t i = 0; i < flow.size(); ++i) {
@@ -72,7 +74,8 @@ Image<Eigen::Vector3f> read_scene_flow(const std::string& path) {
 }
 
 void write_scene_flow(const std::string& path, const Image<Eigen::Vector3f>& flow) {
-  const Header header = {static_cast<std::uint32_t>(flow.width()), static_cast<std::uint32_t>(flow.height()), 3};
+  const Header header = {static_cast<std::uint32_t>(flow.width()), static_cast<std::uint32_t>(flow.height()),
+                         3};
   std::vector<float> values(3 * flow.size());
   for (std::size_t i = 0; i < flow.size(); ++i) {
     const Eigen::Vector3f& motion = flow.pixels()[i];

@@ -84,9 +84,8 @@ Evaluation::Evaluation(const FramePair& pair, const Surface& source, SurfaceMap 
   if (pair.scene_flow.empty()) return;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const Eigen::Vector3f flow = pair.scene_flow(source.pixels[i].x(), source.pixels[i].y());
-    const bool has_truth = flow.allFinite();
-    truth_.push_back(has_truth ? source.points[i] + flow : Eigen::Vector3f::Constant(unknown));
-    moving_.push_back(has_truth && flow.norm() > moving_distance);
+    truth_.push_back(source.points[i] + flow);  // NaN where the flow is
+    moving_.push_back(flow.norm() > moving_distance);
   }
 }
 

@@ -15,14 +15,14 @@ namespace pliant {
 struct Metrics {
   double residual_mean = 0;  ///< to the target point at the pixel a point projects to, nothing rejected
   double residual_sd = 0;
-  double coverage = 0;  ///< share of the source points that land on a valid target pixel
+  double coverage = 0;      ///< share of the source points that land on a valid target pixel
   double nearest_mean = 0;  ///< to the nearest target point
   double nearest_sd = 0;
   /// End-point error against the true motion; absent when no point has truth.
   struct Truth {
     double epe_mean = 0;
     double epe_sd = 0;
-    double epe_p95 = 0;  ///< the least error that 95 % of the points do not exceed
+    double epe_p95 = 0;          ///< the least error that 95 % of the points do not exceed
     double epe_moving_mean = 0;  ///< over points whose true motion exceeds 1 mm; 0 when there is none
   };
   std::optional<Truth> truth;
@@ -55,7 +55,7 @@ class Evaluation {
   struct Index;  // keeps FLANN out of this header
   Camera camera_;
   SurfaceMap target_;
-  std::vector<Eigen::Vector3f> truth_;   // true position per source point, NaN where unknown
+  std::vector<Eigen::Vector3f> truth_;  // true position per source point, NaN where unknown
   std::vector<bool> moving_;
   std::unique_ptr<Index> index_;
 };

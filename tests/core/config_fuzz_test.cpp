@@ -1,5 +1,5 @@
-#include <cctype>
 #include <random>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
@@ -12,6 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 const std::string everything = R"(# An experiment
 title: "quoted \x41 text"
@@ -27,16 +28,16 @@ energies:
   rotation: ~
   near: {type: constraint, weight: 3, plane: false}
 stop: {limit: 1.5, deep: {early: true}}
-metrics: [epe, 'nearest', |-]
+metrics: [epe, 'nearest']
 variants:
   a: {data: *data}
   b: {solver: gauss_newton}
 compare:
   with:
     ? c
-    : {title: >
+    : title: >-
         folded
-      }
+        text
 )";
 
 class ConfigFuzz : public ToyExperiment {
@@ -61,6 +62,7 @@ class ConfigFuzz : public ToyExperiment {
 
 TEST_F(ConfigFuzz, EveryTruncation) {
   for (std::size_t length = 0; length <= everything.size(); ++length) feed(everything.substr(0, length));
+  EXPECT_THAT(errors(everything), IsEmpty());
   EXPECT_GT(refused_, 0);
 }
 
@@ -114,7 +116,7 @@ TEST_F(ConfigFuzz, DeepNesting) {
   }
   EXPECT_EQ(loaded_, 0);
   EXPECT_THAT(errors("data: " + std::string(65, '[') + std::string(65, ']')),
-              ElementsAre("exp.yaml:1:70: not valid YAML: nested more than 64 levels deep"));
+              ElementsAre("exp.yaml:1:70: nested more than 64 levels deep"));
 }
 
 TEST_F(ConfigFuzz, AliasBombs) {
@@ -126,8 +128,7 @@ TEST_F(ConfigFuzz, AliasBombs) {
     bomb += "]\n";
   }
   EXPECT_THAT(errors(bomb), ElementsAre(HasSubstr("more than 20000 values; expected an experiment")));
-  EXPECT_THAT(errors("a: &a [*a]\n"),
-              ElementsAre("exp.yaml:1:8: not valid YAML: an alias stands inside its own anchor"));
+  EXPECT_THAT(errors("a: &a [*a]\n"), ElementsAre("exp.yaml:1:8: an alias stands inside its own anchor"));
 }
 
 TEST_F(ConfigFuzz, OverridesTimesValues) {
@@ -142,7 +143,7 @@ TEST_F(ConfigFuzz, OverridesTimesValues) {
 
 TEST_F(ConfigFuzz, LongKeysAndValues) {
   EXPECT_THAT(errors("? " + std::string(5000, 'k') + "\n: 1\n"),
-              ElementsAre("exp.yaml:1:3: not valid YAML: a key of more than 200 letters"));
+              ElementsAre("exp.yaml:1:3: a key of more than 200 letters"));
   feed(minimal + "title: " + std::string(100000, 't') + "\n");
   EXPECT_EQ(loaded_, 1);
 }

@@ -289,6 +289,14 @@ TEST_F(Config, OverridesOfBaseAndOverlayMerge) {
   EXPECT_EQ(variants[1].second.text("title"), "b");
 }
 
+TEST_F(Config, AFragmentWithoutATypeFitsAnyType) {
+  write("base.yaml", minimal + "variants: {a: {solver: {threads: 5}}}\n");
+  const auto values = load("extends: base.yaml\nvariants: {a: {solver: ceres_lm}}\n").values;
+  const auto& solver = values.sections("variants")[0].second.section("solver");
+  EXPECT_EQ(solver.component(), "ceres_lm");
+  EXPECT_EQ(solver.integer("threads"), 5);
+}
+
 TEST_F(Config, TheResolvedTreeIsTypedAndInTheOrderOfTheTable) {
   write("a.png", "");
   const auto json = load(R"(

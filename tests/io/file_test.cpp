@@ -1,0 +1,44 @@
+#include "framework/io/file.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/io/test_files.h"
+
+namespace pliant {
+namespace {
+
+using ::testing::AllOf;
+using testing::data_error_of;
+using ::testing::HasSubstr;
+
+class File : public testing::TestFiles {};
+
+TEST_F(File, ReadsWhatWasWritten) {
+  const std::vector<std::uint8_t> bytes = {0, '\n', '\r', 0xff, 26};
+  write_file(file("a"), bytes);
+  EXPECT_EQ(read_file(file("a")), bytes);
+}
+
+TEST_F(File, MissingIsAnError) {
+  EXPECT_THAT(data_error_of([&] { read_file(file("none")); }), HasSubstr("none: no such file"));
+}
+
+TEST_F(File, FolderIsAnError) {
+  EXPECT_THAT(data_error_of([&] { read_file(file("")); }), HasSubstr("is a folder"));
+}
+
+TEST_F(File, WritingIntoAMissingFolderIsAnError) {
+  EXPECT_THAT(data_error_of([&] { write_file(file("no/where"), {1}); }),
+              AllOf(HasSubstr("no/where: cannot be written"), HasSubstr("No such file")));
+}
+
+TEST_F(File, FullDiskIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  EXPECT_THAT(data_error_of([] {
+                write_file("/dev/full", {1, 2, 3});
+              }),
+              HasSubstr("/dev/full: cannot be written"));
+}
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,210 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "framework/core/error.h"
+#include "framework/registration/align_features.h"
+#include "framework/registration/alignments.h"
+
+namespace pliant {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+Eigen::Isometry3d a_motion() {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.rotate(Eigen::AngleAxisd(0.2, Eigen::Vector3d(0.2, 0.3, 1).normalized()));
+  motion.pretranslate(Eigen::Vector3d(40, -25, 30));
+  return motion;
+}
+
+Eigen::Vector3d random_point(std::mt19937& random) {
+  std::uniform_real_distribution<double> side(-300, 300);
+  return {side(random), side(random), 1000 + side(random)};
+}
+
+PointMatches make_matches(int good, int bad) {
+  std::mt19937 random(3);
+  PointMatches matches;
+  for (int i = 0; i < good + bad; ++i) {
+    matches.from.push_back(random_point(random));
+    matches.to.push_back(i < good ? a_motion() * matches.from.back() : random_point(random));
+  }
+  return matches;
+}
+
+TEST(RigidRansac, FindsTheExactMotionAmongHalfOutliers) {
+  const AlignmentResult result = fit_rigid_ransac(make_matches(60, 60), {}, 1);
+  EXPECT_TRUE(result.motion.matrix().isApprox(a_motion().matrix(), 1e-9)) << result.motion.matrix();
+  EXPECT_EQ(result.matches, 120);
+  EXPECT_EQ(result.inliers, 60);
+}
+
+TEST(RigidRansac, FindsTheMotionOfATenth) {
+  const AlignmentResult result = fit_rigid_ransac(make_matches(20, 180), {}, 1);
+  EXPECT_TRUE(result.motion.matrix().isApprox(a_motion().matrix(), 1e-2)) << result.motion.matrix();
+  EXPECT_GE(result.inliers, 20);
+}
+
+/// Three noisy matches alone tilt the motion; all of them together must not.
+TEST(RigidRansac, FitsToAllInliers) {
+  PointMatches matches = make_matches(400, 100);
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 5);
+  for (Eigen::Vector3d& point : matches.to)
+    point += Eigen::Vector3d(noise(random), noise(random), noise(random));
+  const AlignmentResult one_triple = fit_rigid_ransac(matches, {.iterations = 20}, 1);
+  const Eigen::Vector3d corner(300, 300, 1300);
+  EXPECT_LT((one_triple.motion * corner - a_motion() * corner).norm(), 1.5);
+  EXPECT_GE(one_triple.inliers, 395);
+}
+
+TEST(RigidRansac, NeedsATriangle) {
+  EXPECT_EQ(fit_rigid_ransac(make_matches(2, 0), {}, 1).inliers, 0);
+  PointMatches line;
+  for (int i = 0; i < 50; ++i) line.from.emplace_back(10 * i, 0, 1000);
+  line.to = line.from;
+  const AlignmentResult result = fit_rigid_ransac(line, {}, 1);
+  EXPECT_EQ(result.inliers, 0);
+  EXPECT_TRUE(result.motion.matrix().isIdentity());
+}
+
+TEST(RigidRansac, SameSeedSameBits) {
+  const PointMatches matches = make_matches(30, 170);
+  const RansacOptions few{.iterations = 100};
+  EXPECT_EQ(fit_rigid_ransac(matches, few, 7).motion.matrix(),
+            fit_rigid_ransac(matches, few, 7).motion.matrix());
+  bool seed_matters = false;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    seed_matters |= fit_rigid_ransac(matches, few, seed).motion.matrix() !=
+                    fit_rigid_ransac(matches, few, 7).motion.matrix();
+  }
+  EXPECT_TRUE(seed_matters);
+}
+
+// --- a plane with a random pattern, seen before and after a rigid motion ---
+
+const Camera camera{300, 300, 159.5, 119.5, 320, 240};
+
+double lattice_value(std::int64_t x, std::int64_t y, std::uint64_t pattern) {
+  std::mt19937_64 random(pattern + 1000003 * static_cast<std::uint64_t>(x + 5000) +
+                         static_cast<std::uint64_t>(y + 5000));
+  return static_cast<double>(random() % 1000) / 1000;
+}
+
+/// Smooth random brightness over the plane, in 0 .. 1; `x`, `y` and `cell` in mm.
+double brightness(double x, double y, double cell, std::uint64_t pattern) {
+  const double i = std::floor(x / cell);
+  const double j = std::floor(y / cell);
+  const auto smooth = [](double t) { return t * t * (3 - 2 * t); };
+  const double s = smooth(x / cell - i);
+  const double t = smooth(y / cell - j);
+  const auto at = [&](int di, int dj) {
+    return lattice_value(static_cast<std::int64_t>(i) + di, static_cast<std::int64_t>(j) + dj, pattern);
+  };
+  return (1 - s) * (1 - t) * at(0, 0) + s * (1 - t) * at(1, 0) + (1 - s) * t * at(0, 1) + s * t * at(1, 1);
+}
+
+RgbdFrame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
+  const Eigen::Vector3d origin = motion * Eigen::Vector3d(0, 0, 800);
+  const Eigen::Vector3d normal = motion.linear() * Eigen::Vector3d::UnitZ();
+  RgbdFrame frame{DepthImage(320, 240), ColorImage(320, 240), {}};
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 0; u < 320; ++u) {
+      const Eigen::Vector3d ray = camera.unproject(u, v, 1);
+      const double depth = origin.dot(normal) / ray.dot(normal);
+      const Eigen::Vector3d at = motion.inverse() * (depth * ray);
+      const double value =
+          0.5 * brightness(at.x(), at.y(), 15, pattern) + 0.5 * brightness(at.x(), at.y(), 40, pattern + 1);
+      frame.depth(u, v) = static_cast<float>(depth);
+      const auto grey = static_cast<std::uint8_t>(255 * value);
+      frame.color(u, v) = {grey, grey, grey};
+    }
+  }
+  return frame;
+}
+
+FramePair moved_plane() {
+  return {"plane", camera, render_plane(Eigen::Isometry3d::Identity(), 11), render_plane(a_motion(), 11), {}};
+}
+
+std::unique_ptr<Alignment> make_features(std::int64_t min_inliers = 8) {
+  Registry registry;
+  register_alignments(registry);
+  return registry.make<Alignment>(Parameters("features", {{"ratio", 0.85},
+                                                          {"iterations", std::int64_t{2000}},
+                                                          {"inlier_distance", 30.0},
+                                                          {"min_inliers", min_inliers}}));
+}
+
+TEST(FeatureAlignment, FindsHowAPlaneMoved) {
+  const AlignmentResult result = make_features()->align(moved_plane(), 1);
+  EXPECT_GE(result.inliers, 30);
+  for (const Eigen::Vector3d& corner : {Eigen::Vector3d(-300, -200, 800), Eigen::Vector3d(300, 200, 800)}) {
+    EXPECT_LT((result.motion * corner - a_motion() * corner).norm(), 2);
+  }
+}
+
+TEST(FeatureAlignment, SameSeedSameBits) {
+  const AlignmentResult first = make_features()->align(moved_plane(), 5);
+  const AlignmentResult second = make_features()->align(moved_plane(), 5);
+  EXPECT_EQ(first.motion.matrix(), second.motion.matrix());
+  EXPECT_EQ(first.inliers, second.inliers);
+}
+
+TEST(FeatureAlignment, UsesOnlyTheMaskAndPixelsWithDepth) {
+  FramePair pair = moved_plane();
+  pair.source.mask = MaskImage(320, 240, 1);
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 0; u < 160; ++u) pair.source.mask(u, v) = 0;
+    for (int u = 160; u < 200; ++u) pair.source.depth(u, v) = 0;
+  }
+  const PointMatches matches = match_features(pair, 0.85);
+  EXPECT_GT(matches.size(), 10u);
+  for (const Eigen::Vector3d& point : matches.from) EXPECT_GT(camera.project(point).x(), 198);
+}
+
+TEST(FeatureAlignment, NeedsColor) {
+  FramePair pair = moved_plane();
+  pair.target.color = {};
+  EXPECT_THAT([&] { make_features()->align(pair, 1); },
+              ThrowsMessage<DataError>(AllOf(HasSubstr("plane, target"), HasSubstr("colour image"))));
+}
+
+TEST(FeatureAlignment, NeedsFeatures) {
+  FramePair pair = moved_plane();
+  pair.source.color = ColorImage(320, 240, Rgb{90, 90, 90});
+  EXPECT_THAT([&] { make_features()->align(pair, 1); },
+              ThrowsMessage<DataError>(AllOf(HasSubstr("plane, source"), HasSubstr("0 colour features"))));
+}
+
+TEST(FeatureAlignment, NeedsInliersAndSaysHowManyThereAre) {
+  const int inliers = make_features()->align(moved_plane(), 1).inliers;
+  EXPECT_THAT([&] { make_features(inliers + 1)->align(moved_plane(), 1); },
+              ThrowsMessage<DataError>(AllOf(HasSubstr("plane: " + std::to_string(inliers) + " of "),
+                                             HasSubstr("at least " + std::to_string(inliers + 1)))));
+}
+
+TEST(FeatureAlignment, RefusesUnrelatedImages) {
+  FramePair pair = moved_plane();
+  pair.target = render_plane(a_motion(), 77);
+  EXPECT_THROW(make_features()->align(pair, 1), DataError);
+}
+
+TEST(NoAlignment, LeavesTheSourceWhereItIs) {
+  Registry registry;
+  register_alignments(registry);
+  const AlignmentResult result = registry.make<Alignment>(Parameters("none", {}))->align(moved_plane(), 1);
+  EXPECT_TRUE(result.motion.matrix().isIdentity(0));
+  EXPECT_EQ(result.matches, 0);
+}
+
+}  // namespace
+}  // namespace pliant
