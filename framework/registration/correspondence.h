@@ -1,0 +1,26 @@
+#pragma once
+
+#include "framework/core/registry.h"
+#include "framework/deformation/warp.h"
+#include "framework/device/array.h"
+#include "framework/problem/problem.h"
+#include "framework/registration/target.h"
+
+namespace pliant {
+
+/// Finds where each constrained point should go [thesis 4.2].
+class Correspondence {
+ public:
+  static constexpr const char* kind = "correspondence";
+  virtual ~Correspondence() = default;
+  /// Writes `data` and `confidence` of every constraint; only enqueues. `selected[i]` is the point of
+  /// `moved` (the source as it is deformed now) that constraint i stands for. A point without a match gets
+  /// confidence 0.
+  virtual void match(Device& device, const PointSet& moved, const Array<int>& selected, const Target& target,
+                     Constraints& constraints) const = 0;
+};
+
+/// Adds `projective`.
+void register_correspondences(Registry& registry);
+
+}  // namespace pliant

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "framework/core/registry.h"
+#include "framework/deformation/graph_builder.h"
+#include "framework/deformation/node_transform.h"
+#include "framework/problem/solver.h"
+#include "framework/registration/alignment.h"
+#include "framework/registration/correspondence.h"
+#include "framework/registration/sampler.h"
+
+namespace pliant {
+
+/// When the outer loop of Figure 4.1 ends.
+struct StoppingRule {
+  int max_iterations = 30;
+  double residual = 0;       ///< mm; ends when the mean residual is below
+  double min_progress = 0;   ///< ends when the mean residual falls by less than this share of itself
+};
+
+/// How a pair is registered: the components that an experiment file puts together.
+struct Method {
+  std::unique_ptr<Alignment> alignment;
+  std::unique_ptr<GraphBuilder> graph;
+  std::unique_ptr<NodeTransform> transform;
+  int nearest_nodes = 4;  ///< k of [Eq. 4.1]
+  std::unique_ptr<ConstraintSampler> sampler;
+  std::unique_ptr<Correspondence> correspondence;
+  std::vector<Energy> energies;
+  double length_unit = 1;  ///< mm per unit of length in the energies
+  std::unique_ptr<Solver> solver;
+  StoppingRule stopping;
+};
+
+/// The rows of an experiment file that describe a method.
+std::vector<Parameter> method_rows();
+
+/// Assembles the method that an experiment describes. Throws ConfigError for a combination that makes no
+/// sense.
+Method make_method(const Parameters& experiment, const Registry& registry);
+
+}  // namespace pliant
