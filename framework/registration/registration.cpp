@@ -185,7 +185,7 @@ class Loop {
   std::string reason_to_stop(double previous, double residual) const {
     if (residual < method_.stopping.residual) return "residual";
     if (iterations_ >= method_.stopping.max_iterations) return "max_iterations";
-    if (previous - residual < method_.stopping.min_progress * previous) return "no_progress";
+    if (std::abs(previous - residual) < method_.stopping.min_progress * previous) return "no_progress";
     return "";
   }
 
