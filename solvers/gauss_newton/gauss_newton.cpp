@@ -43,6 +43,7 @@ class BoundGaussNewton : public BoundSolver {
     summary.initial_energy = number(status_initial_energy);
     summary.final_energy = number(status_energy);
     summary.iterations = words[status_iterations];
+    summary.linear_iterations = words[status_linear_iterations];
     for (std::size_t i = 0; i < static_cast<std::size_t>(summary.iterations); ++i)
       summary.energies.push_back(number(status_energies + i));
     constexpr std::array<const char*, 5> names{"", "converged", "max_iterations", "no_decrease", "failed"};

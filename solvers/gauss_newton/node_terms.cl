@@ -2,27 +2,24 @@
 // the functions after the energy, ROWS is the length of its residual.
 
 // Adds weight * J^T J to the packed lower triangle and weight * J^T r to the gradient, both in the order
-// 4 axis + column; returns the energy.
-float16 TERM(add)(const float16* u, float16 weight, float16* packed, float16* gradient) {
+// 4 axis + c.
+void TERM(add)(const float16* u, float16 weight, float16* packed, float16* gradient) {
   float16 r[ROWS], J[12 * ROWS];
   NAME_RESIDUAL(u, u, r);
   NAME_JACOBIAN(u, u, J);
-  float16 energy = 0;
-  for (int row = 0; row < ROWS; ++row) energy += r[row] * r[row];
   int entry = 0;
   for (int m = 0; m < 12; ++m) {
-    const int at_m = 3 * (m % 4) + m / 4;
+    const int at_m = COLUMNWISE(m);
     float16 sum = 0;
     for (int row = 0; row < ROWS; ++row) sum += J[12 * row + at_m] * r[row];
     gradient[m] += weight * sum;
     for (int n = 0; n <= m; ++n, ++entry) {
-      const int at_n = 3 * (n % 4) + n / 4;
+      const int at_n = COLUMNWISE(n);
       float16 product = 0;
       for (int row = 0; row < ROWS; ++row) product += J[12 * row + at_m] * J[12 * row + at_n];
       packed[entry] += weight * product;
     }
   }
-  return weight * energy;
 }
 
 // Energy at v less energy at u, without losing the digits of a small difference.

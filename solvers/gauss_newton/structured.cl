@@ -1,11 +1,13 @@
-// Gauss-Newton on J^T J = M (x) I_3 + (12x12 per node) + (rows that couple the axes, never assembled).
+// Gauss-Newton on J^T J = M (x) I_3 + (12x12 per node).
 //
 // A node's unknowns are the rows of [D | t]: number 4 axis + c, c = 3 being t; the caller's order (columns of
-// D, then t: 3 c + axis) is met only at the borders. All arrays run over `padded` nodes, a multiple of 16.
+// D, then t: 3 c + axis) is met only at the borders. All arrays run over `padded` nodes, a multiple of 16,
+// and vectors lie in chunks of sixteen nodes: unknown m of a chunk's nodes is one float16, number
+// 12 chunk + m. What neighbours look at is kept a second time node by node, as (float16)(row x, y, z, 0).
 //
 // A 4x4 block of M is one float16, entry 4 d + c = M[c][d]: with a row x of [D | t] spread as
-// xxxxyyyyzzzzwwww the lanes hold M[c][d] x[d], to be added up over d once per block row. A 12x12 block is
-// nine of these, number 3 a + b for the rows of axis a and the columns of axis b.
+// xxxxyyyyzzzzwwww the lanes hold M[c][d] x[d], to be added up over d once per block row. The nodes' own
+// 12x12 blocks are kept as packed lower triangles, sixteen nodes at a time.
 //
 // `solve` runs the whole course in one work-group of LANES work-items: launches and waits would cost more
 // than a second core gains. The order of every sum is fixed.
@@ -76,16 +78,19 @@ kernel void assemble(global const int* status, int padded, KIND_ARGUMENTS(edges)
 
 // ------------------------------------------------------------------------------------------- vector tools
 
-// The order 4 axis + c of sixteen nodes' rows against lanes: transposes a 16x16 matrix in place.
-void transpose(float16* m) {
+// Transposes a 16x16 matrix in place.
+static inline void transpose(float16* m) {
   float16 other[16];
+#pragma unroll
   for (int round = 0; round < 2; ++round) {
+#pragma unroll
     for (int i = 0; i < 8; ++i) {
       other[2 * i].even = m[i].lo;
       other[2 * i].odd = m[i + 8].lo;
       other[2 * i + 1].even = m[i].hi;
       other[2 * i + 1].odd = m[i + 8].hi;
     }
+#pragma unroll
     for (int i = 0; i < 8; ++i) {
       m[2 * i].even = other[i].lo;
       m[2 * i].odd = other[i + 8].lo;
@@ -95,13 +100,13 @@ void transpose(float16* m) {
   }
 }
 
-// Unknowns of nodes 16 chunk and on, as the equations want them: column by column, a node a lane.
-void load_forms(global const float* x, int chunk, float16* u) {
+// Writes a chunk node by node.
+static inline void store_rows(const float16* values, int chunk, global float16* rows) {
   float16 m[16];
-  for (int n = 0; n < 16; ++n) m[n] = vload16(0, x + 12 * (16 * chunk + n));
+  for (int entry = 0; entry < 12; ++entry) m[entry] = values[entry];
+  for (int entry = 12; entry < 16; ++entry) m[entry] = 0;
   transpose(m);
-  for (int c = 0; c < 4; ++c)
-    for (int axis = 0; axis < 3; ++axis) u[3 * c + axis] = m[4 * axis + c];
+  for (int n = 0; n < 16; ++n) rows[16 * chunk + n] = m[n];
 }
 
 float16 inside(int chunk, int node_count) {
@@ -109,112 +114,119 @@ float16 inside(int chunk, int node_count) {
   return select((float16)(0), (float16)(1), lanes + 16 * chunk < (float)node_count);
 }
 
-float total(float4 part, local float* scratch) {
+float total(float16 part, local float* scratch) {
+  const float8 half_part = part.lo + part.hi;
+  const float sum = sum4(half_part.lo + half_part.hi);
 #if LANES == 1
-  return sum4(part);
+  return sum;
 #else
-  scratch[get_local_id(0)] = sum4(part);
-  for (int half_count = LANES / 2; half_count > 0; half_count /= 2) {
+  scratch[get_local_id(0)] = sum;
+  for (int others = LANES / 2; others > 0; others /= 2) {
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (get_local_id(0) < half_count) scratch[get_local_id(0)] += scratch[get_local_id(0) + half_count];
+    if (get_local_id(0) < others) scratch[get_local_id(0)] += scratch[get_local_id(0) + others];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  const float sum = scratch[0];
+  const float all = scratch[0];
   barrier(CLK_LOCAL_MEM_FENCE);
-  return sum;
+  return all;
 #endif
 }
 
 #define AT(m, n) ((m) * ((m) + 1) / 2 + (n))
 
-// Inverse of a symmetric positive semi-definite 12x12 matrix (packed lower triangle), a node a lane, by the
-// sweep operator on the matrix scaled to a diagonal of ones. What nothing determines gets zeros: there the
-// preconditioner does not move.
-void invert(float16* packed) {
-  float16 scale[12];
-  for (int m = 0; m < 12; ++m) {
-    const float16 d = packed[AT(m, m)];
-    scale[m] = select((float16)(0), rsqrt(d), d > 1e-30f);
-  }
-  for (int m = 0; m < 12; ++m)
-    for (int n = 0; n <= m; ++n) packed[AT(m, n)] *= scale[m] * scale[n];
+// L D L^T of symmetric positive semi-definite 12x12 matrices (packed lower triangles, a node a lane): leaves
+// L below the diagonal and the inverse of D on it. What nothing determines gets zero there: the
+// preconditioner does not move it.
+static inline void factor(float16* packed) {
+  float16 least[12];
+  for (int m = 0; m < 12; ++m) least[m] = 1e-5f * packed[AT(m, m)];
   for (int pivot = 0; pivot < 12; ++pivot) {
     const float16 d = packed[AT(pivot, pivot)];
-    const float16 inverse = select((float16)(0), 1 / d, d > 1e-5f);
-    float16 column[12];
-    for (int m = 0; m < pivot; ++m) column[m] = packed[AT(pivot, m)];
-    column[pivot] = 0;
-    for (int m = pivot + 1; m < 12; ++m) column[m] = packed[AT(m, pivot)];
-    for (int m = 0; m < 12; ++m) {
-      const float16 factor = column[m] * inverse;
-      for (int n = 0; n <= m; ++n) packed[AT(m, n)] -= factor * column[n];
+    const float16 inverse = select((float16)(0), 1 / d, d > fmax(least[pivot], 1e-30f));
+    packed[AT(pivot, pivot)] = inverse;
+    for (int m = pivot + 1; m < 12; ++m) {
+      const float16 below = packed[AT(m, pivot)];
+      const float16 multiplier = below * inverse;
+      for (int n = pivot + 1; n < m; ++n) packed[AT(m, n)] -= packed[AT(n, pivot)] * below;
+      packed[AT(m, m)] -= multiplier * below;
+      packed[AT(m, pivot)] = multiplier;
     }
-    for (int m = 0; m < pivot; ++m) packed[AT(pivot, m)] = column[m] * inverse;
-    for (int m = pivot + 1; m < 12; ++m) packed[AT(m, pivot)] = column[m] * inverse;
-    packed[AT(pivot, pivot)] = -inverse;
   }
-  for (int m = 0; m < 12; ++m)
-    for (int n = 0; n <= m; ++n) packed[AT(m, n)] *= -scale[m] * scale[n];
 }
 
-void store_blocks(const float16* packed, int chunk, global float16* blocks) {
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b) {
-      float16 m[16];
-      for (int d = 0; d < 4; ++d)
-        for (int c = 0; c < 4; ++c) {
-          const int row = 4 * a + c, column = 4 * b + d;
-          m[4 * d + c] = packed[row >= column ? AT(row, column) : AT(column, row)];
-        }
-      transpose(m);
-      for (int n = 0; n < 16; ++n) blocks[9 * (16 * chunk + n) + 3 * a + b] = m[n];
+// y += (packed symmetric matrix) x.
+static inline void multiply_packed(global const float16* packed, const float16* x, float16* y) {
+#pragma unroll
+  for (int m = 0; m < 12; ++m) {
+#pragma unroll
+    for (int n = 0; n < m; ++n) {
+      y[m] += packed[AT(m, n)] * x[n];
+      y[n] += packed[AT(m, n)] * x[m];
     }
-}
-
-// y += block * x for one 12x12 block, the sums over d still open.
-void multiply_block(global const float16* block, const float4* x, float16* y) {
-  const float16 x0 = SPREAD(x[0]), x1 = SPREAD(x[1]), x2 = SPREAD(x[2]);
-  for (int a = 0; a < 3; ++a) y[a] += block[3 * a] * x0 + block[3 * a + 1] * x1 + block[3 * a + 2] * x2;
-}
-
-// y += row of M (from its place `first` on) * x, likewise.
-void multiply_row(int node, int first, global const int* rows, global const int* columns,
-                  global const float16* M, global const float4* x, float16* y) {
-  for (int block = rows[node] + first; block < rows[node + 1]; ++block) {
-    const float16 m = M[block];
-    global const float4* other = x + 3 * columns[block];
-    y[0] += m * SPREAD(other[0]);
-    y[1] += m * SPREAD(other[1]);
-    y[2] += m * SPREAD(other[2]);
+    y[m] += packed[AT(m, m)] * x[m];
   }
+}
+
+// Solves L D L^T z = z.
+static inline void solve_packed(global const float16* packed, float16* z) {
+#pragma unroll
+  for (int m = 1; m < 12; ++m)
+#pragma unroll
+    for (int n = 0; n < m; ++n) z[m] -= packed[AT(m, n)] * z[n];
+#pragma unroll
+  for (int m = 0; m < 12; ++m) z[m] *= packed[AT(m, m)];
+#pragma unroll
+  for (int m = 11; m > 0; --m)
+#pragma unroll
+    for (int n = 0; n < m; ++n) z[n] -= packed[AT(m, n)] * z[m];
 }
 
 // -------------------------------------------------------------------------------------- Gauss-Newton itself
 
 // Everything that a sweep over the nodes looks at.
 typedef struct {
-  int node_count, padded;
+  int node_count, chunks;
   global const float* node_weights;
   global const int* rows;
   global const int* columns;
   global const float16* M;
-  global float16* D;        // diagonal blocks of what is solved: M + energies per node, damped
-  global float16* P;        // inverses of the diagonal blocks
-  global float4* x;         // unknowns, three rows a node, like all that follow
-  global float4* gradient;  // half the gradient of what separates
-  global float4* step;
-  global float4* residual;  // of the linear system
-  global float4* direction;
-  global float4* product;
+  global float16* D;         // diagonal blocks of what is solved: M + energies per node, damped
+  global float16* P;         // their factors
+  global float16* x;         // unknowns, in chunks, like all that follow
+  global float16* gradient;  // half the gradient of what separates
+  global float16* step;
+  global float16* residual;  // of the linear system
+  global float16* direction;
+  global float16* product;
+  global float16* by_node;  // what is multiplied by M, node by node
 } System;
 
-// Builds D, P and the right-hand side of sixteen nodes; returns the energy of the terms per node.
-float4 prepare(const System* s, int chunk, float damping) {
+// M (from place `first` of each row on) times by_node, for one chunk.
+static inline void multiply_rows(const System* s, int chunk, int first, float16* result) {
+  float16 m[16];
+  for (int n = 0; n < 16; ++n) {
+    float16 x = 0, y = 0, z = 0;
+    const int end = s->rows[16 * chunk + n + 1];
+    for (int block = s->rows[16 * chunk + n] + first; block < end; ++block) {
+      const float16 entries = s->M[block];
+      global const float4* other = (global const float4*)(s->by_node + s->columns[block]);
+      x += entries * SPREAD(other[0]);
+      y += entries * SPREAD(other[1]);
+      z += entries * SPREAD(other[2]);
+    }
+    m[n] = (float16)(fold(x), fold(y), fold(z), (float4)(0));
+  }
+  transpose(m);
+  for (int entry = 0; entry < 12; ++entry) result[entry] = m[entry];
+}
+
+// Builds D, its factors and the right-hand side of a chunk.
+static inline void prepare(const System* s, int chunk, float damping) {
   float16 u[12], packed[78], force[12], m[16];
-  load_forms((global const float*)s->x, chunk, u);
+  for (int entry = 0; entry < 12; ++entry) u[COLUMNWISE(entry)] = s->x[12 * chunk + entry];
   for (int entry = 0; entry < 78; ++entry) packed[entry] = 0;
-  for (int entry = 0; entry < 12; ++entry) force[entry] = 0;
-  const float16 energy = add_node_terms(u, inside(chunk, s->node_count), s->node_weights, packed, force);
+  for (int entry = 0; entry < 12; ++entry) force[entry] = s->gradient[12 * chunk + entry];
+  add_node_terms(u, inside(chunk, s->node_count), s->node_weights, packed, force);
 
   for (int n = 0; n < 16; ++n) m[n] = s->M[s->rows[16 * chunk + n]];
   transpose(m);
@@ -222,46 +234,26 @@ float4 prepare(const System* s, int chunk, float damping) {
     for (int c = 0; c < 4; ++c)
       for (int d = 0; d <= c; ++d) packed[AT(4 * axis + c, 4 * axis + d)] += m[4 * d + c];
   for (int entry = 0; entry < 12; ++entry) packed[AT(entry, entry)] *= 1 + damping;
-  store_blocks(packed, chunk, s->D);
-  invert(packed);
-  store_blocks(packed, chunk, s->P);
-
-  for (int entry = 0; entry < 12; ++entry) m[entry] = force[entry];
-  for (int entry = 12; entry < 16; ++entry) m[entry] = 0;
-  transpose(m);
-  for (int n = 0; n < 16; ++n) {
-    const int node = 16 * chunk + n;
-    s->residual[3 * node] = -(s->gradient[3 * node] + m[n].lo.lo);
-    s->residual[3 * node + 1] = -(s->gradient[3 * node + 1] + m[n].lo.hi);
-    s->residual[3 * node + 2] = -(s->gradient[3 * node + 2] + m[n].hi.lo);
-  }
-  return fold(energy);
-}
-
-// direction = P residual; returns residual . P residual.
-float4 precondition(const System* s, int node, float4* z) {
-  const float4 r[3] = {s->residual[3 * node], s->residual[3 * node + 1], s->residual[3 * node + 2]};
-  float16 y[3] = {0, 0, 0};
-  multiply_block(s->P + 9 * node, r, y);
-  float4 part = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    z[axis] = fold(y[axis]);
-    part += z[axis] * r[axis];
-  }
-  return part;
+  for (int entry = 0; entry < 78; ++entry) s->D[78 * chunk + entry] = packed[entry];
+  factor(packed);
+  for (int entry = 0; entry < 78; ++entry) s->P[78 * chunk + entry] = packed[entry];
+  for (int entry = 0; entry < 12; ++entry) s->residual[12 * chunk + entry] = -force[entry];
 }
 
 // Solves for the step until a further iteration would lower the energy by less than `least`, or by less
 // than a share of what has been gained. Returns the number of iterations.
 int conjugate_gradients(const System* s, float least, int most_iterations, local float* scratch) {
-  float4 part = 0;
-  FOR_EACH(node, s->padded) {
-    float4 z[3];
-    part += precondition(s, node, z);
-    for (int axis = 0; axis < 3; ++axis) {
-      s->direction[3 * node + axis] = z[axis];
-      s->step[3 * node + axis] = 0;
+  float16 part = 0;
+  FOR_EACH(chunk, s->chunks) {
+    float16 z[12];
+    for (int entry = 0; entry < 12; ++entry) z[entry] = s->residual[12 * chunk + entry];
+    solve_packed(s->P + 78 * chunk, z);
+    for (int entry = 0; entry < 12; ++entry) {
+      part += z[entry] * s->residual[12 * chunk + entry];
+      s->direction[12 * chunk + entry] = z[entry];
+      s->step[12 * chunk + entry] = 0;
     }
+    store_rows(z, chunk, s->by_node);
   }
   float rz = total(part, scratch);
   float gained = 0;
@@ -270,15 +262,14 @@ int conjugate_gradients(const System* s, float least, int most_iterations, local
   while (iteration < most_iterations && rz > least) {
     SYNC;
     part = 0;
-    FOR_EACH(node, s->padded) {
-      const float4 p[3] = {s->direction[3 * node], s->direction[3 * node + 1], s->direction[3 * node + 2]};
-      float16 y[3] = {0, 0, 0};
-      multiply_block(s->D + 9 * node, p, y);
-      multiply_row(node, 1, s->rows, s->columns, s->M, s->direction, y);
-      for (int axis = 0; axis < 3; ++axis) {
-        const float4 q = fold(y[axis]);
-        s->product[3 * node + axis] = q;
-        part += q * p[axis];
+    FOR_EACH(chunk, s->chunks) {
+      float16 p[12], q[12];
+      multiply_rows(s, chunk, 1, q);
+      for (int entry = 0; entry < 12; ++entry) p[entry] = s->direction[12 * chunk + entry];
+      multiply_packed(s->D + 78 * chunk, p, q);
+      for (int entry = 0; entry < 12; ++entry) {
+        part += p[entry] * q[entry];
+        s->product[12 * chunk + entry] = q[entry];
       }
     }
     const float curvature = total(part, scratch);
@@ -289,60 +280,70 @@ int conjugate_gradients(const System* s, float least, int most_iterations, local
     gained += gain;
     const int last = gain * CG_SPREAD < max(CG_SHARE * gained, least);
     part = 0;
-    SYNC;
-    FOR_EACH(node, s->padded) {
-      for (int axis = 0; axis < 3; ++axis) {
-        s->step[3 * node + axis] += alpha * s->direction[3 * node + axis];
-        s->residual[3 * node + axis] -= alpha * s->product[3 * node + axis];
+    FOR_EACH(chunk, s->chunks) {
+      float16 z[12];
+      for (int entry = 0; entry < 12; ++entry) {
+        const int at = 12 * chunk + entry;
+        s->step[at] += alpha * s->direction[at];
+        z[entry] = s->residual[at] - alpha * s->product[at];
+        s->residual[at] = z[entry];
       }
       if (last) continue;
-      float4 z[3];
-      part += precondition(s, node, z);
-      for (int axis = 0; axis < 3; ++axis) s->product[3 * node + axis] = z[axis];
+      solve_packed(s->P + 78 * chunk, z);
+      for (int entry = 0; entry < 12; ++entry) {
+        part += z[entry] * s->residual[12 * chunk + entry];
+        s->product[12 * chunk + entry] = z[entry];
+      }
     }
     if (last) break;
     const float next = total(part, scratch);
     const float beta = next / rz;
     rz = next;
-    SYNC;
-    FOR_EACH(entry, 3 * s->padded) s->direction[entry] = s->product[entry] + beta * s->direction[entry];
+    FOR_EACH(chunk, s->chunks) {
+      float16 p[12];
+      for (int entry = 0; entry < 12; ++entry) {
+        const int at = 12 * chunk + entry;
+        p[entry] = s->product[at] + beta * s->direction[at];
+        s->direction[at] = p[entry];
+      }
+      store_rows(p, chunk, s->by_node);
+    }
   }
-  SYNC;
   return iteration;
 }
 
 // What the step changes the energy by: exactly so for what is quadratic, as a difference per node for the
 // rest. Leaves M * step in `product`.
 float try_step(const System* s, local float* scratch) {
-  float4 part = 0;
-  FOR_EACH(node, s->padded) {
-    float16 y[3] = {0, 0, 0};
-    multiply_row(node, 0, s->rows, s->columns, s->M, s->step, y);
-    for (int axis = 0; axis < 3; ++axis) {
-      const int row = 3 * node + axis;
-      const float4 q = fold(y[axis]);
-      s->product[row] = q;
-      part += s->step[row] * (q + 2 * s->gradient[row]);
+  SYNC;
+  FOR_EACH(chunk, s->chunks) {
+    float16 step[12];
+    for (int entry = 0; entry < 12; ++entry) step[entry] = s->step[12 * chunk + entry];
+    store_rows(step, chunk, s->by_node);
+  }
+  SYNC;
+  float16 part = 0;
+  FOR_EACH(chunk, s->chunks) {
+    float16 product[12], u[12], v[12];
+    multiply_rows(s, chunk, 0, product);
+    for (int entry = 0; entry < 12; ++entry) {
+      const int at = 12 * chunk + entry;
+      part += s->step[at] * (product[entry] + 2 * s->gradient[at]);
+      s->product[at] = product[entry];
+      u[COLUMNWISE(entry)] = s->x[at];
+      v[COLUMNWISE(entry)] = s->x[at] + s->step[at];
     }
+    part += change_of_node_terms(u, v, inside(chunk, s->node_count), s->node_weights);
   }
-  const float quadratic = total(part, scratch);
-  part = 0;
-  FOR_EACH(chunk, s->padded / 16) {
-    float16 u[12], v[12];
-    load_forms((global const float*)s->x, chunk, u);
-    load_forms((global const float*)s->step, chunk, v);
-    for (int entry = 0; entry < 12; ++entry) v[entry] += u[entry];
-    part += fold(change_of_node_terms(u, v, inside(chunk, s->node_count), s->node_weights));
-  }
-  return quadratic + total(part, scratch);
+  return total(part, scratch);
 }
 
 float energy_per_node(const System* s, local float* scratch) {
-  float4 part = 0;
-  FOR_EACH(chunk, s->padded / 16) {
+  float16 part = 0;
+  FOR_EACH(chunk, s->chunks) {
     float16 u[12];
-    load_forms((global const float*)s->x, chunk, u);
-    part += fold(energy_of_node_terms(u, inside(chunk, s->node_count), s->node_weights));
+    for (int entry = 0; entry < 12; ++entry) u[COLUMNWISE(entry)] = s->x[12 * chunk + entry];
+    part += energy_of_node_terms(u, inside(chunk, s->node_count), s->node_weights);
   }
   return total(part, scratch);
 }
@@ -362,22 +363,36 @@ float ordered_sum(global const float* values, int count) {
 // behind them it leaves the energy per node at the end. Words of status: see StatusWord; the energies it
 // leaves are the changes that `conclude` turns into sums.
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
-    global int* status, int node_count, int padded, int max_iterations, float tolerance, float least_damping,
+    global int* status, int node_count, int chunks, int max_iterations, float tolerance, float least_damping,
     global const float* node_weights, global const int* rows, global const int* columns,
-    global const float16* M, global float16* D, global float16* P, global float4* vectors,
-    global float4* gradient, int partial_count, global float* partials, global float* unknowns) {
+    global const float16* M, global float16* D, global float16* P, global float16* vectors,
+    global const float4* gradient, int partial_count, global float* partials, global float* unknowns) {
   local float scratch[LANES];
-  System s = {node_count, padded, node_weights, rows, columns, M, D, P, vectors, gradient};
-  s.step = vectors + 3 * padded + 4;
-  s.residual = s.step + 3 * padded + 4;
-  s.direction = s.residual + 3 * padded + 4;
-  s.product = s.direction + 3 * padded + 4;
+  const int length = 12 * chunks;
+  System s = {node_count, chunks, node_weights, rows, columns, M, D, P, vectors};
+  s.gradient = s.x + length;
+  s.step = s.gradient + length;
+  s.residual = s.step + length;
+  s.direction = s.residual + length;
+  s.product = s.direction + length;
+  s.by_node = s.product + length;
 
-  FOR_EACH(node, padded) for (int axis = 0; axis < 3; ++axis) {
-    global const float* form = unknowns + 12 * node + axis;
-    s.x[3 * node + axis] = node < node_count ? (float4)(form[0], form[3], form[6], form[9]) : (float4)(0);
+  FOR_EACH(chunk, chunks) {
+    float16 m[16], g[16];
+    for (int n = 0; n < 16; ++n) {
+      const int node = 16 * chunk + n;
+      m[n] = node < node_count
+                 ? (float16)(vload8(0, unknowns + 12 * node), vload4(2, unknowns + 12 * node), 0, 0, 0, 0)
+                 : 0;
+      g[n] = (float16)(gradient[3 * node], gradient[3 * node + 1], gradient[3 * node + 2], (float4)(0));
+    }
+    transpose(m);
+    transpose(g);
+    for (int entry = 0; entry < 12; ++entry) {
+      s.x[12 * chunk + entry] = m[COLUMNWISE(entry)];
+      s.gradient[12 * chunk + entry] = g[entry];
+    }
   }
-  SYNC;
   float damping = least_damping;
   float energy = ordered_sum(partials, partial_count) + energy_per_node(&s, scratch);
   const float negligible = 1e-6f * energy;  // of the start: digits that single precision does not have
@@ -385,8 +400,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
   int iteration = 0, linear_iterations = 0;
   int termination = isfinite(energy) ? 0 : 4;
   while (termination == 0) {
-    FOR_EACH(chunk, padded / 16) prepare(&s, chunk, damping);
-    SYNC;
+    FOR_EACH(chunk, chunks) prepare(&s, chunk, damping);
     const float least = tolerance * max(energy, negligible);
     const int used = conjugate_gradients(&s, LEAST_SHARE * least, 12 * node_count + 1, scratch);
     linear_iterations += used;
@@ -396,13 +410,12 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
     }
     const float change = try_step(&s, scratch);
     const int accepted = change <= 0;  // false for NaN
-    SYNC;
     if (accepted) {
       energy += change;
       damping = fmax(damping * 0.1f, least_damping);
-      FOR_EACH(row, 3 * padded) {
-        s.x[row] += s.step[row];
-        s.gradient[row] += s.product[row];
+      FOR_EACH(chunk, chunks) for (int at = 12 * chunk; at < 12 * (chunk + 1); ++at) {
+        s.x[at] += s.step[at];
+        s.gradient[at] += s.product[at];
       }
     } else {
       damping = fmax(damping, 1e-6f) * 10;
@@ -415,15 +428,18 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
       termination = 2;
     else if (damping > 1e6f)
       termination = 3;
-    SYNC;
   }
-  FOR_EACH(node, node_count) for (int axis = 0; axis < 3; ++axis) {
-    const float4 row = s.x[3 * node + axis];
-    global float* form = unknowns + 12 * node + axis;
-    form[0] = row.x;
-    form[3] = row.y;
-    form[6] = row.z;
-    form[9] = row.w;
+  FOR_EACH(chunk, chunks) {
+    float16 m[16];
+    for (int entry = 0; entry < 12; ++entry) m[COLUMNWISE(entry)] = s.x[12 * chunk + entry];
+    for (int entry = 12; entry < 16; ++entry) m[entry] = 0;
+    transpose(m);
+    for (int n = 0; n < 16; ++n) {
+      const int node = 16 * chunk + n;
+      if (node >= node_count) break;
+      vstore8(m[n].lo, 0, unknowns + 12 * node);
+      vstore4(m[n].hi.lo, 2, unknowns + 12 * node);
+    }
   }
   const float per_node = energy_per_node(&s, scratch);
   if (get_local_id(0) == 0) {

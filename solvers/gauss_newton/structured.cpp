@@ -36,7 +36,9 @@ std::string rows_source(const Energy& energy) {
 
 /// The functions of every term per node, and three that call them all.
 std::string node_terms_source(const std::vector<const Term*>& terms) {
-  std::string text, add, change, energy;
+  // From the order 4 axis + c to that of the equations.
+  std::string text = "#define COLUMNWISE(m) (3 * ((m) % 4) + (m) / 4)\n";
+  std::string add, change, energy;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const auto& name = terms[i]->energy.equation.name;
     text += fmt::format(
@@ -45,7 +47,7 @@ std::string node_terms_source(const std::vector<const Term*>& terms) {
         "#define ROWS {2}\n{3}",
         equation_source(terms[i]->energy, "float16"), name, terms[i]->energy.residuals,
         embedded::solvers_gauss_newton_node_terms_cl);
-    add += fmt::format("  energy += add_{}(u, inside * weights[{}], packed, gradient);\n", name, i);
+    add += fmt::format("  add_{}(u, inside * weights[{}], packed, gradient);\n", name, i);
     change += fmt::format("  change += change_{}(u, v, inside * weights[{}]);\n", name, i);
     energy += fmt::format("  energy += energy_{}(u, inside * weights[{}]);\n", name, i);
   }
@@ -108,16 +110,16 @@ class StructuredCourse : public Course {
   }
 
   void enqueue(const cl::Buffer& status) override {
-    evaluate(status);
+    evaluate("jacobian", status);
     device_.run("mm", assemble_, static_cast<std::size_t>(padded_), group, status, padded_, edges_.starts,
                 edges_.entries, edges_.places, edges_.arms, edges_.forces, constraints_.starts,
                 constraints_.entries, constraints_.places, constraints_.arms, constraints_.forces, rows_,
                 matrix_, gradient_);
-    device_.run("solver", solve_, local_, local_, status, node_count_, padded_, options_.max_iterations,
-                options_.tolerance, options_.damping, node_weights_, rows_, columns_, matrix_, diagonal_,
-                preconditioner_, vectors_, gradient_, partial_count_, partials_,
+    device_.run("solver", solve_, local_, local_, status, node_count_, padded_ / lanes,
+                options_.max_iterations, options_.tolerance, options_.damping, node_weights_, rows_, columns_,
+                matrix_, diagonal_, preconditioner_, vectors_, gradient_, partial_count_, partials_,
                 problem_.unknowns().write_device(device_));
-    evaluate(status);
+    evaluate("energy", status);
     device_.run("energy", conclude_, 1, 1, status, partial_count_ + 1, partials_);
   }
 
@@ -195,11 +197,10 @@ class StructuredCourse : public Course {
     constexpr auto number = sizeof(float);
     const auto nodes = static_cast<std::size_t>(padded_);
     matrix_ = device_.allocate(number * 16 * pattern.columns.size());
-    diagonal_ = device_.allocate(number * 144 * nodes);
-    preconditioner_ = device_.allocate(number * 144 * nodes);
+    diagonal_ = device_.allocate(number * 78 * nodes);
+    preconditioner_ = device_.allocate(number * 78 * nodes);
     gradient_ = device_.allocate(number * 12 * nodes);
-    // Five vectors, each followed by room for reading the last node's row as sixteen numbers.
-    vectors_ = device_.upload(std::vector<float>(5 * (12 * nodes + 16), 0.0F));
+    vectors_ = device_.allocate(number * (6 * 12 + 16) * nodes);  // six in chunks, one node by node
     partials_ = device_.allocate(number * static_cast<std::size_t>(partial_count_ + 1));
   }
 
@@ -227,27 +228,27 @@ class StructuredCourse : public Course {
     for (auto& term : row_terms_) {
       if (term.kind != &edges_) continue;
       auto kernel = row_kernel(term, "arms");
-      device_.run("jacobian", kernel, static_cast<std::size_t>(term.count), 64, node_points, term.count,
+      device_.run("weights", kernel, static_cast<std::size_t>(term.count), 64, node_points, term.count,
                   edges_.nodes, term.first, edges_.arms);
     }
     auto kernel = device_.kernel(embedded::solvers_gauss_newton_arms_cl, "arms_of_constraints");
     for (const auto& set : sets_) {
       const auto& influences = set.constraints->influences;
-      device_.run("jacobian", kernel, set.constraints->size(), 64, set.constraints->points.device(device_),
+      device_.run("weights", kernel, set.constraints->size(), 64, set.constraints->points.device(device_),
                   static_cast<cl_int>(set.constraints->size()), static_cast<cl_int>(influences.per_point),
                   influences.nodes.device(device_), influences.weights.device(device_), node_points,
                   set.first, static_cast<cl_int>(constraints_.incidences.per_instance), constraints_.arms);
     }
   }
 
-  void evaluate(const cl::Buffer& status) {
+  void evaluate(const std::string& stage, const cl::Buffer& status) {
     const auto& unknowns = problem_.unknowns().device(device_);
     const auto& node_points = problem_.node_points().device(device_);
     for (auto& term : row_terms_) {
       const auto* constraints = term.term->constraints.get();
       const auto& data = constraints ? constraints->data.device(device_) : node_points;
       const auto& confidence = constraints ? constraints->confidence.device(device_) : node_points;
-      device_.run("jacobian", term.evaluate, static_cast<std::size_t>(term.partials()), 1, status, term.count,
+      device_.run(stage, term.evaluate, static_cast<std::size_t>(term.partials()), 1, status, term.count,
                   static_cast<cl_float>(problem_.effective_weight(*term.term)), unknowns, term.first,
                   term.kind->nodes, term.kind->arms, node_points, data, confidence, term.add,
                   term.kind->forces, term.first_partial, partials_);
