@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <string>
 #include <vector>
@@ -186,6 +187,9 @@ int run_command_line(int argc, char** argv) {
   add_commands(app, arguments);
   try {
     return parse(app, argc, argv);
+  } catch (const ConfigError& error) {
+    fmt::print(stderr, "{}\n", error.what());  // its lines begin with a place that editors understand
+    return error.exit_code();
   } catch (const Error& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return error.exit_code();
