@@ -71,6 +71,11 @@ Examples:
   pliant components --json > schema.json     a JSON Schema with which editors complete experiment files
 )";
 
+constexpr const char* devices_examples = R"(
+Example:
+  pliant devices    then choose one by a part of its name: pliant run my.yaml --set device=pthread
+)";
+
 constexpr const char* reproduce_examples = R"(
 Example:
   pliant reproduce --quick --out out/quick --data ~/data
@@ -141,7 +146,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   components->add_flag("--json", arguments.json, "A JSON Schema of experiment files, for editors");
   components->callback([&] { components_command(arguments.kind, arguments.name, arguments.json); });
 
-  auto* devices = app.add_subcommand("devices", "The OpenCL devices of this machine");
+  auto* devices = add_command(app, "devices", "The OpenCL devices of this machine", devices_examples);
   devices->callback([] { devices_command(); });
 }
 
