@@ -64,6 +64,7 @@ struct Energy {
 };
 
 /// Registers an energy whose only parameter is its weight.
+/// Throws std::logic_error for more residuals than max_residuals.
 void add_energy(Registry& registry, const std::string& name, const std::string& doc, const Energy& energy);
 
 }  // namespace pliant

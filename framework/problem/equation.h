@@ -6,7 +6,7 @@
 //   PLIANT_EQUATION void NAME_jacobian(const Real* u, const Real* data, Real* J)   // row-major, r by u
 //
 // in the common subset of both languages: arithmetic, local arrays, loops with constant bounds; no
-// allocation, no library calls but sqrt. What u and data hold is fixed by the stencil (stencil.h).
+// allocation, no library calls but sqrt. What u and data hold is fixed by the stencil (energy.h).
 #ifndef PLIANT_EQUATION
 #ifdef __OPENCL_VERSION__
 #define PLIANT_EQUATION static inline
