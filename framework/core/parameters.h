@@ -91,6 +91,7 @@ class ParameterTable {
  public:
   ParameterTable() = default;
   ParameterTable(std::initializer_list<Parameter> rows) : rows_(rows) {}
+  explicit ParameterTable(std::vector<Parameter> rows) : rows_(std::move(rows)) {}
   const std::vector<Parameter>& rows() const { return rows_; }
   const Parameter* find(const std::string& name) const;
 
