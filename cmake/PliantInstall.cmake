@@ -8,7 +8,9 @@ add_library(Pliant::pliant ALIAS pliant_all)
 target_link_libraries(pliant_all INTERFACE ${ROOMS})
 
 install(TARGETS pliant_all ${ROOMS} EXPORT PliantTargets)
-install(TARGETS pliant RUNTIME)
+if(TARGET pliant)
+  install(TARGETS pliant RUNTIME)
+endif()
 install(EXPORT PliantTargets NAMESPACE Pliant:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pliant)
 install(DIRECTORY framework energies graphs samplers solvers experiments
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant FILES_MATCHING PATTERN "*.h")
@@ -18,4 +20,5 @@ configure_package_config_file(cmake/PliantConfig.cmake.in PliantConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pliant)
 write_basic_package_version_file(PliantConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/PliantConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/PliantConfigVersion.cmake
+  cmake/FindOpenCV.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pliant)

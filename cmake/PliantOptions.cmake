@@ -12,6 +12,10 @@ endif()
 
 add_library(pliant_options INTERFACE)
 target_compile_options(pliant_options INTERFACE -Wall -Wextra)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC bug 105651: `"text" + std::string` warns of copies that cannot happen.
+  target_compile_options(pliant_options INTERFACE -Wno-restrict)
+endif()
 if(PLIANT_WARNINGS_AS_ERRORS)
   target_compile_options(pliant_options INTERFACE -Werror)
 endif()

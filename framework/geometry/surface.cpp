@@ -121,4 +121,14 @@ Surface make_surface(const SurfaceMap& map, const ColorImage& color) {
   return surface;
 }
 
+std::vector<int> points_on_grid(const Surface& surface, int step) {
+  const int centre = step / 2;
+  std::vector<int> found;
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const Eigen::Vector2i& pixel = surface.pixels[i];
+    if (pixel.x() % step == centre && pixel.y() % step == centre) found.push_back(static_cast<int>(i));
+  }
+  return found;
+}
+
 }  // namespace pliant

@@ -36,4 +36,8 @@ SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int ra
 /// The valid points of a map as a list, with colours from `color` when that is not empty.
 Surface make_surface(const SurfaceMap& map, const ColorImage& color);
 
+/// The points of the surface, by index, at the centres of `step` x `step` pixel masks that tile its image
+/// from the top left corner.
+std::vector<int> points_on_grid(const Surface& surface, int step);
+
 }  // namespace pliant

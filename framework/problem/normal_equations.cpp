@@ -15,7 +15,7 @@ namespace pliant {
 namespace {
 
 constexpr int energy_chunk = 64;  // CHUNK in evaluate.cl
-constexpr std::size_t group = 16;
+constexpr std::size_t group_size = 16;
 
 /// Lists of contributions, one list per owner (a block or a node), in the order of the instances.
 class ContributionLists {
@@ -184,30 +184,30 @@ void NormalEquations::assemble_term(TermKernels& term, const cl::Buffer& status)
   const cl_int residuals = term.term->energy.residuals;
   switch (term.term->energy.stencil) {
     case Stencil::per_node:
-      device.run("jacobian", term.evaluate, count, group, status, term.count, term.weight, unknowns,
+      device.run("jacobian", term.evaluate, count, group_size, status, term.count, term.weight, unknowns,
                  diagonal_.device(device), blocks_, gradient_);
       break;
     case Stencil::per_edge:
-      device.run("jacobian", term.evaluate, count, group, status, term.count, term.weight, unknowns,
+      device.run("jacobian", term.evaluate, count, group_size, status, term.count, term.weight, unknowns,
                  node_points, edges_.device(device), term.rows);
-      device.run("mm", term.gather_matrix, block_rows_.size(), group, status, block_count(), residuals,
+      device.run("mm", term.gather_matrix, block_rows_.size(), group_size, status, block_count(), residuals,
                  term.matrix_starts.device(device), term.matrix_entries.device(device), term.rows, blocks_);
-      device.run("mv", term.gather_gradient, static_cast<std::size_t>(nodes), group, status, nodes, residuals,
-                 term.gradient_starts.device(device), term.gradient_entries.device(device), term.rows,
-                 gradient_);
+      device.run("mv", term.gather_gradient, static_cast<std::size_t>(nodes), group_size, status, nodes,
+                 residuals, term.gradient_starts.device(device), term.gradient_entries.device(device),
+                 term.rows, gradient_);
       break;
     case Stencil::per_constraint: {
       const auto& constraints = *term.term->constraints;
       const auto& points = constraints.points.device(device);
       const auto& weights = constraints.influences.weights.device(device);
       const cl_int k = constraints.influences.per_point;
-      device.run("jacobian", term.evaluate, count, group, status, term.count, term.weight, unknowns,
+      device.run("jacobian", term.evaluate, count, group_size, status, term.count, term.weight, unknowns,
                  node_points, points, k, constraints.influences.nodes.device(device), weights,
                  constraints.data.device(device), constraints.confidence.device(device), term.rows);
-      device.run("mm", term.gather_matrix, block_rows_.size(), group, status, block_count(),
+      device.run("mm", term.gather_matrix, block_rows_.size(), group_size, status, block_count(),
                  term.matrix_starts.device(device), term.matrix_entries.device(device), term.rows, points, k,
                  constraints.influences.nodes.device(device), weights, node_points, blocks_);
-      device.run("mv", term.gather_gradient, static_cast<std::size_t>(nodes), group, status, nodes,
+      device.run("mv", term.gather_gradient, static_cast<std::size_t>(nodes), group_size, status, nodes,
                  term.gradient_starts.device(device), term.gradient_entries.device(device), term.rows, points,
                  k, weights, node_points, gradient_);
       break;

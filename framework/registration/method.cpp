@@ -1,0 +1,63 @@
+#include "framework/registration/method.h"
+
+namespace pliant {
+namespace {
+
+ParameterTable stopping_table() {
+  const StoppingRule rule;
+  return {
+      integer("max_iterations", rule.max_iterations)
+          .range(1, 10000)
+          .doc("Outer iterations (match, minimise, update) at most"),
+      real("residual", rule.residual).unit("mm").at_least(0).doc("Ends when the mean residual is below"),
+      real("min_progress", rule.min_progress)
+          .range(0, 1)
+          .doc("Ends when the mean residual falls by less than this share of itself"),
+  };
+}
+
+StoppingRule make_stopping(const Parameters& section) {
+  return {static_cast<int>(section.integer("max_iterations")), section.real("residual"),
+          section.real("min_progress")};
+}
+
+}  // namespace
+
+std::vector<Parameter> method_rows() {
+  const Method method;
+  return {
+      component("alignment", "alignment", "none").doc("Rigid motion from which registration starts"),
+      component("graph", "graph", "uniform").doc("Where the nodes of the deformation graph are"),
+      component("transform", "transform", "affine").doc("What a node carries"),
+      integer("nearest_nodes", method.nearest_nodes)
+          .range(1, max_influences)
+          .doc("Nodes that move a point: k of [Eq. 4.1]"),
+      component("sampler", "sampler", "uniform").doc("Which points are constrained"),
+      component("correspondence", "correspondence", "projective").doc("Where constrained points should go"),
+      components("energies", "energy").doc("Terms of E_tot [Eq. 4.6]"),
+      real("length_unit", method.length_unit)
+          .unit("mm")
+          .above(0)
+          .doc("Unit of length in the energies: 1000 for metres; it shifts the balance of their weights"),
+      component("solver", "solver", "gauss_newton").doc("What minimises E_tot"),
+      group("stopping", stopping_table()).doc("When the outer loop ends"),
+  };
+}
+
+Method make_method(const Parameters& experiment, const Registry& registry) {
+  Method method;
+  method.alignment = registry.make<Alignment>(experiment.section("alignment"));
+  method.graph = registry.make<GraphBuilder>(experiment.section("graph"));
+  method.transform = registry.make<NodeTransform>(experiment.section("transform"));
+  method.nearest_nodes = static_cast<int>(experiment.integer("nearest_nodes"));
+  method.sampler = registry.make<ConstraintSampler>(experiment.section("sampler"));
+  method.correspondence = registry.make<Correspondence>(experiment.section("correspondence"));
+  for (const auto& [name, section] : experiment.sections("energies"))
+    method.energies.push_back(*registry.make<Energy>(section));
+  method.length_unit = experiment.real("length_unit");
+  method.solver = registry.make<Solver>(experiment.section("solver"));
+  method.stopping = make_stopping(experiment.section("stopping"));
+  return method;
+}
+
+}  // namespace pliant

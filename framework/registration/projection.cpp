@@ -1,0 +1,28 @@
+#include "framework/registration/projection.h"
+
+#include <cmath>
+
+namespace pliant {
+
+cl_float4 pinhole(const Camera& camera) {
+  return {{static_cast<float>(camera.fx), static_cast<float>(camera.fy), static_cast<float>(camera.cx),
+           static_cast<float>(camera.cy)}};
+}
+
+cl_int2 image_size(const Camera& camera) { return {{camera.width, camera.height}}; }
+
+std::optional<std::size_t> target_pixel_reference(const Target& target, const Eigen::Vector3f& point) {
+  if (!(point.z() > 0)) return std::nullopt;
+  const cl_float4 camera = pinhole(target.camera);
+  const float u = std::round(camera.s[0] * point.x() / point.z() + camera.s[2]);
+  const float v = std::round(camera.s[1] * point.y() / point.z() + camera.s[3]);
+  const bool is_inside = u >= 0 && v >= 0 && u < static_cast<float>(target.camera.width) &&
+                         v < static_cast<float>(target.camera.height);
+  if (!is_inside) return std::nullopt;
+  const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(target.camera.width) +
+                     static_cast<std::size_t>(u);
+  if (!(target.points.host()[3 * pixel + 2] > 0)) return std::nullopt;
+  return pixel;
+}
+
+}  // namespace pliant

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "framework/registration/target.h"
+
+namespace pliant {
+
+/// The arguments that kernels over a target take: fx, fy, cx, cy and width, height.
+cl_float4 pinhole(const Camera& camera);
+cl_int2 image_size(const Camera& camera);
+
+/// Plain C++ reference of projective association [thesis 4.2]: row-major offset of the pixel that the point
+/// (mm, camera frame) projects to; none when that lies outside or has no target point.
+std::optional<std::size_t> target_pixel_reference(const Target& target, const Eigen::Vector3f& point);
+
+}  // namespace pliant
