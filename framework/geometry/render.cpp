@@ -46,30 +46,32 @@ PixelBox pixel_box(const Corners& corners, const Camera& camera, double near) {
   return {first(low.x()), last(high.x(), camera.width), first(low.y()), last(high.y(), camera.height)};
 }
 
-/// The normal of the plane through the camera and the edge from corner i to corner j, computed the same way
-/// for both triangles of the edge, so that every ray lies on opposite sides of it for them.
-Eigen::Vector3d edge_plane(const Corners& corners, const Eigen::Vector3i& triangle, int i, int j) {
-  if (triangle[i] < triangle[j]) return corners.col(i).cross(corners.col(j));
-  return -corners.col(j).cross(corners.col(i));
-}
-
 /// Draws one triangle. The ray d meets its plane at barycentric coordinates that are proportional to
 /// (d . (p1 x p2), d . (p2 x p0), d . (p0 x p1)), which holds for corners behind the camera too.
-void draw(int index, const Eigen::Vector3i& triangle, const Corners& corners, const Camera& camera,
-          double near, Image<Fragment>& seen) {
+void draw(int index, const Corners& corners, const Camera& camera, double near, Image<Fragment>& seen) {
+  // A ray closer to an edge than rounding can tell is on it, for both triangles of the edge: through a
+  // vertex it could otherwise pass between all of them.
+  constexpr double kRounding = 1e-14;
   Eigen::Matrix3d planes;
-  for (int i = 0; i < 3; ++i)
-    planes.row(i) = edge_plane(corners, triangle, (i + 1) % 3, (i + 2) % 3).transpose();
+  Eigen::Vector3d rounding;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& a = corners.col((i + 1) % 3);
+    const Eigen::Vector3d& b = corners.col((i + 2) % 3);
+    planes.row(i) = a.cross(b).transpose();
+    rounding[i] = kRounding * a.norm() * b.norm();
+  }
   // Negative for a triangle seen from outside.
-  const double volume = corners.col(0).dot(corners.col(1).cross(corners.col(2)));
+  const double volume = planes.row(0).dot(corners.col(0));
   if (volume < 0) planes = -planes;
   const PixelBox box = pixel_box(corners, camera, near);
   for (int v = box.first_v; v <= box.last_v; ++v) {
     for (int u = box.first_u; u <= box.last_u; ++u) {
-      const Eigen::Vector3d shares = planes * camera.unproject(u, v, 1);
-      const double sum = shares.sum();
-      if (!(shares.minCoeff() >= 0 && sum > 0)) continue;
-      const Eigen::Vector3d barycentric = shares / sum;
+      const Eigen::Vector3d ray = camera.unproject(u, v, 1);
+      const Eigen::Array3d tolerance = rounding.array() * ray.norm();
+      const Eigen::Array3d shares = planes * ray;
+      // A triangle whose plane the ray lies in is seen from its edge, and its neighbours are seen instead.
+      if ((shares < -tolerance).any() || !(shares.sum() > tolerance.sum())) continue;
+      const Eigen::Vector3d barycentric = shares.max(0) / shares.max(0).sum();
       const double depth = corners.row(2).dot(barycentric);
       Fragment& fragment = seen(u, v);
       if (depth < near || (fragment.triangle >= 0 && depth >= fragment.depth)) continue;
@@ -93,7 +95,7 @@ Image<Fragment> render_mesh(const std::vector<Eigen::Vector3d>& vertices,
       }
       corners.col(i) = vertices[static_cast<std::size_t>(vertex)];
     }
-    if (corners.allFinite()) draw(static_cast<int>(t), triangles[t], corners, camera, near, seen);
+    if (corners.allFinite()) draw(static_cast<int>(t), corners, camera, near, seen);
   }
   return seen;
 }
