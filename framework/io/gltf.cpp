@@ -107,11 +107,22 @@ class SceneReader {
     Primitive primitive;
     primitive.positions =
         document_.vectors(document_.integer(document_.at(description, "attributes"), "POSITION"));
+    check_amount(primitive.positions.size(), document_.list(description, "targets").size());
     primitive.triangles = read_triangles(description, primitive.positions.size());
     for (const Json& target : document_.list(description, "targets")) {
       primitive.displacements.push_back(read_displacements(target, primitive.positions.size()));
     }
     return primitive;
+  }
+
+  // A small file can name large data many times.
+  void check_amount(std::size_t vertices, std::size_t targets) const {
+    constexpr std::size_t kMostVectors = 20'000'000;
+    const std::size_t all_vertices = mesh_.vertices.size() + vertices;
+    const std::size_t all_targets = mesh_.targets.size() + targets;
+    if (all_vertices * (1 + all_targets) <= kMostVectors) return;
+    document_.fail(fmt::format("{} vertices with {} morph targets are more than can be held", all_vertices,
+                               all_targets));
   }
 
   std::vector<Eigen::Vector3i> read_triangles(const Json& description, std::size_t vertex_count) const {
@@ -179,15 +190,10 @@ class SceneReader {
   void add_primitive(const Primitive& primitive, const std::vector<std::string>& names,
                      const Eigen::Affine3d& placement) {
     const std::size_t first = mesh_.vertices.size();
-    // A small file can name one large mesh many times.
-    constexpr std::size_t kMostVectors = 50'000'000;
-    if ((first + primitive.positions.size()) * (1 + mesh_.targets.size() + names.size()) > kMostVectors) {
-      document_.fail("more vertices and morph targets than can be held");
-    }
     for (const Eigen::Vector3f& position : primitive.positions) {
       mesh_.vertices.push_back(to_millimetres(placement * position.cast<double>()));
     }
-    // Indices were checked, and the limit above keeps them far below what an int holds.
+    // Indices were checked, and the amount that can be held keeps them far below what an int holds.
     const bool is_mirrored = placement.linear().determinant() < 0;
     for (Eigen::Vector3i triangle : primitive.triangles) {
       if (is_mirrored) std::swap(triangle[1], triangle[2]);
