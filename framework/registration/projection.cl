@@ -38,16 +38,18 @@ kernel void match(int count, global const int* selected, global const float* res
 
 #define CHUNK 256
 
-// Per work-item the residuals of CHUNK points, in order: their sum and how many there are.
-kernel void sum_residuals(int count, global const float* moved, float4 camera, int2 size,
-                          global const float* target_points, global float2* partials) {
+// Per work-item the residuals of CHUNK points, each (-1: it meets no target point), and in order their sum
+// and how many there are.
+kernel void residuals(int count, global const float* moved, float4 camera, int2 size,
+                      global const float* target_points, global float* residual, global float2* partials) {
   const int first = get_global_id(0) * CHUNK;
   if (first >= count) return;
   float2 sum = 0;
   for (int i = first; i < min(first + CHUNK, count); ++i) {
     const float3 p = vload3(i, moved);
     const int pixel = target_pixel(p, camera, size, target_points);
-    if (pixel >= 0) sum += (float2)(distance(p, vload3(pixel, target_points)), 1);
+    residual[i] = pixel >= 0 ? distance(p, vload3(pixel, target_points)) : -1;
+    if (pixel >= 0) sum += (float2)(residual[i], 1);
   }
   partials[get_global_id(0)] = sum;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/deformation/warm_start.h"
 #include "framework/registration/residual.h"
 
 namespace pliant {
@@ -62,24 +63,43 @@ Surface move_rigidly(const Surface& surface, const Eigen::Isometry3d& motion) {
   return moved;
 }
 
-/// The right-hand column of Figure 4.1 before its loop begins: aligned source, graph, weights, constraints.
-struct Setup {
+/// What stays as it is while a pair is registered.
+struct Scene {
+  const FramePair& pair;
   Surface source;   ///< as given
   Surface aligned;  ///< after the initial alignment
   AlignmentResult alignment;
   Target target;
-  std::vector<int> nodes;  ///< indices of points
+  PointSet rest;  ///< `aligned` on the device
+};
+
+Scene make_scene(const FramePair& pair, const Method& method, std::uint64_t seed, StageTimes& times) {
+  Surface source = timed(times, "surface", [&] {
+    return make_surface(make_surface_map(pair.source, pair.camera), pair.source.color);
+  });
+  if (source.size() == 0) throw DataError(pair.name + ": the source has no point");
+  Target target = timed(times, "surface",
+                        [&] { return Target(pair.camera, make_surface_map(pair.target, pair.camera)); });
+  const AlignmentResult alignment =
+      timed(times, "alignment", [&] { return method.alignment->align(pair, seed); });
+  Surface aligned = move_rigidly(source, alignment.motion);
+  PointSet rest{flatten(aligned.points), flatten(aligned.normals)};
+  return {pair, std::move(source), std::move(aligned), alignment, std::move(target), std::move(rest)};
+}
+
+/// Graph, weights and constraints, and the problem that they make: what adapting makes anew.
+struct Model {
+  std::vector<int> nodes;  ///< points of the source
   Array<float> node_points;
   Influences influences;  ///< of every point of the source
-  PointSet rest;          ///< `aligned` on the device
   Array<int> selected;    ///< the points that are constrained
   std::shared_ptr<Constraints> constraints;
   std::unique_ptr<Problem> problem;
 };
 
-void check_selection(const FramePair& pair, const char* what, const std::vector<int>& selected) {
+void check_selection(const Scene& scene, const char* what, const std::vector<int>& selected) {
   if (selected.empty())
-    throw DataError(fmt::format("{}: no {} falls on the source; choose a finer one", pair.name, what));
+    throw DataError(fmt::format("{}: no {} falls on the source; choose a finer one", scene.pair.name, what));
 }
 
 std::shared_ptr<Constraints> make_constraints(Device& device, const Method& method,
@@ -101,106 +121,127 @@ std::vector<Term> make_terms(const Method& method, const std::shared_ptr<Constra
   return terms;
 }
 
-Setup set_up(const FramePair& pair, const Method& method, Device& device, std::uint64_t seed,
-             StageTimes& times) {
-  Surface source = timed(times, "surface", [&] {
-    return make_surface(make_surface_map(pair.source, pair.camera), pair.source.color);
-  });
-  if (source.size() == 0) throw DataError(pair.name + ": the source has no point");
-  Target target = timed(times, "surface",
-                        [&] { return Target(pair.camera, make_surface_map(pair.target, pair.camera)); });
-  const AlignmentResult alignment =
-      timed(times, "alignment", [&] { return method.alignment->align(pair, seed); });
-  Surface aligned = move_rigidly(source, alignment.motion);
-
-  std::vector<int> nodes = timed(times, "ans", [&] { return method.graph->select_nodes(aligned); });
-  check_selection(pair, "node of the graph", nodes);
-  const auto positions = pick(aligned.points, nodes);
-  PointSet rest{flatten(aligned.points), flatten(aligned.normals)};
-  Influences influences = compute_influences(device, rest.points, positions, method.nearest_nodes);
+Model make_model(const Scene& scene, const Method& method, Device& device, const PointSelection& nodes,
+                 const PointSelection& samples, StageTimes& times) {
+  check_selection(scene, "node of the graph", nodes.points());
+  check_selection(scene, "constraint", samples.points());
+  const auto positions = pick(scene.aligned.points, nodes.points());
+  Influences influences = compute_influences(device, scene.rest.points, positions, method.nearest_nodes);
   auto edges =
       timed(times, "edges", [&] { return find_edges(influences, static_cast<int>(positions.size())); });
-
-  std::vector<int> selected = timed(times, "acs", [&] { return method.sampler->select(aligned); });
-  check_selection(pair, "constraint", selected);
-  auto constraints = make_constraints(device, method, pick(aligned.points, selected), positions);
+  auto constraints =
+      make_constraints(device, method, pick(scene.aligned.points, samples.points()), positions);
   auto problem = std::make_unique<Problem>(DeformationGraph{positions, std::move(edges)},
                                            make_terms(method, constraints), method.length_unit);
-  return {std::move(source),      std::move(aligned), alignment,
-          std::move(target),      std::move(nodes),   flatten(positions),
-          std::move(influences),  std::move(rest),    Array<int>(std::move(selected)),
+  return {nodes.points(),         flatten(positions), std::move(influences), Array<int>(samples.points()),
           std::move(constraints), std::move(problem)};
 }
 
-/// The loop of Figure 4.1: match, minimise, update the source, measure the residual.
-class Loop {
+/// One registration [thesis Figure 4.1].
+class Registration {
  public:
-  Loop(Setup& setup, const Method& method, Device& device)
-      : setup_(setup),
-        method_(method),
+  Registration(const FramePair& pair, const Method& method, Device& device, std::uint64_t seed)
+      : method_(method),
         device_(device),
-        moved_{Array<float>(setup.rest.points.host()), Array<float>(setup.rest.normals.host())},
-        meter_(device, setup.target, setup.aligned.size()) {}
+        scene_(make_scene(pair, method, seed, times_)),
+        nodes_(timed(times_, "ans",
+                     [&] { return method.graph->select_nodes(device, scene_.aligned, pair.camera); })),
+        samples_(timed(times_, "acs",
+                       [&] { return method.sampler->select(device, scene_.aligned, pair.camera); })),
+        model_(make_model(scene_, method, device, *nodes_, *samples_, times_)),
+        moved_{Array<float>(scene_.rest.points.host()), Array<float>(scene_.rest.normals.host())},
+        meter_(device, scene_.target, scene_.aligned.size()) {}
 
-  void run(const FramePair& pair, const ProgressSink& progress) {
-    const auto solver = method_.solver->bind(*setup_.problem, device_);
-    double residual = measure(pair);
-    while (termination_.empty()) {
-      match();
-      solver->solve();
-      update_source();
-      const double previous = std::exchange(residual, measure(pair));
-      ++iterations_;
-      termination_ = reason_to_stop(previous, residual);
-      report(pair, residual, progress);
-    }
-    summaries_ = solver->summaries();
+  void match() {
+    method_.correspondence->match(device_, moved_, model_.selected, scene_.target, *model_.constraints);
   }
 
-  int iterations() const { return iterations_; }
-  const std::string& termination() const { return termination_; }
-  const PointSet& moved() const { return moved_; }
-  const std::vector<SolverSummary>& summaries() const { return summaries_; }
+  void run(const ProgressSink& progress) {
+    bind_solver();
+    double residual = measure();
+    while (termination_.empty()) {
+      match();
+      solver_->solve();
+      update_source();
+      const double previous = std::exchange(residual, measure());
+      ++iterations_;
+      decide(previous, residual);
+      report(residual, progress);
+    }
+    collect_summaries();
+  }
+
+  RegistrationResult take_result();
+  std::unique_ptr<Problem> take_problem() { return std::move(model_.problem); }
 
  private:
-  void match() {
-    method_.correspondence->match(device_, moved_, setup_.selected, setup_.target, *setup_.constraints);
+  void bind_solver() { solver_ = method_.solver->bind(*model_.problem, device_); }
+
+  void collect_summaries() {
+    for (auto& summary : solver_->summaries()) summaries_.push_back(std::move(summary));
   }
 
   void update_source() {
-    warp(device_, setup_.rest, setup_.influences, setup_.node_points, setup_.problem->unknowns(), moved_);
+    warp(device_, scene_.rest, model_.influences, model_.node_points, model_.problem->unknowns(), moved_);
   }
 
-  double measure(const FramePair& pair) {
+  double measure() {
     const Residual residual = meter_.measure(moved_.points);
     if (!std::isfinite(residual.mean))
-      throw NumericalError(
-          fmt::format("{}: the residual is not finite after {} outer iterations", pair.name, iterations_));
+      throw NumericalError(fmt::format("{}: the residual is not finite after {} outer iterations",
+                                       scene_.pair.name, iterations_));
     if (residual.landed == 0)
       throw DataError(fmt::format("{}: no point of the source projects onto a point of the target{}",
-                                  pair.name, iterations_ == 0 ? "; an initial alignment may help" : ""));
+                                  scene_.pair.name,
+                                  iterations_ == 0 ? "; an initial alignment may help" : ""));
     return residual.mean;
   }
 
-  std::string reason_to_stop(double previous, double residual) const {
-    if (residual < method_.stopping.residual) return "residual";
-    if (iterations_ >= method_.stopping.max_iterations) return "max_iterations";
-    if (std::abs(previous - residual) < method_.stopping.min_progress * previous) return "no_progress";
-    return "";
+  /// Ends the loop, or adapts graph and constraints to the residual and lets it go on.
+  void decide(double previous, double residual) {
+    const StoppingRule& rule = method_.stopping;
+    if (residual < rule.residual)
+      termination_ = "residual";
+    else if (iterations_ >= rule.max_iterations)
+      termination_ = "max_iterations";
+    else if (!adapt() && std::abs(previous - residual) < rule.min_progress * previous)
+      termination_ = "no_progress";
   }
 
-  void report(const FramePair& pair, double residual, const ProgressSink& progress) const {
+  /// Refines and collapses [Alg. 2, 3], samples anew [thesis 4.5]. The deformation so far is kept.
+  bool adapt() {
+    const bool has_new_nodes =
+        timed(times_, "ans", [&] { return nodes_->adapt(device_, meter_.per_point()); });
+    const bool has_new_samples =
+        timed(times_, "acs", [&] { return samples_->adapt(device_, meter_.per_point()); });
+    if (!has_new_nodes && !has_new_samples) return false;
+    collect_summaries();
+    Model next = make_model(scene_, method_, device_, *nodes_, *samples_, times_);
+    next.problem->unknowns() = carry_over({model_.nodes, model_.influences, model_.problem->unknowns()},
+                                          next.nodes, scene_.aligned.points);
+    model_ = std::move(next);
+    bind_solver();
+    return true;
+  }
+
+  void report(double residual, const ProgressSink& progress) const {
     if (!progress) return;
     const double done =
         termination_.empty() ? static_cast<double>(iterations_) / method_.stopping.max_iterations : 1.0;
-    progress({pair.name, done, fmt::format("iteration {}: residual {:.3f} mm", iterations_, residual)});
+    progress(
+        {scene_.pair.name, done, fmt::format("iteration {}: residual {:.3f} mm", iterations_, residual)});
   }
 
-  Setup& setup_;
+  StageTimes times_;
   const Method& method_;
   Device& device_;
+  Scene scene_;
+  std::unique_ptr<PointSelection> nodes_;
+  std::unique_ptr<PointSelection> samples_;
+  Model model_;
   PointSet moved_;
   ResidualMeter meter_;
+  std::unique_ptr<BoundSolver> solver_;
   int iterations_ = 0;
   std::string termination_;
   std::vector<SolverSummary> summaries_;
@@ -217,21 +258,24 @@ void record_solves(const std::vector<SolverSummary>& summaries, RegistrationResu
   result.solver = {summaries.back().solver, summaries.back().linear_solver, summaries.back().termination};
 }
 
-RegistrationResult to_result(Setup&& setup, const Loop& loop) {
+RegistrationResult Registration::take_result() {
   RegistrationResult result;
-  result.points = unflatten(loop.moved().points);
-  result.normals = unflatten(loop.moved().normals);
-  result.node_positions = pick(setup.aligned.points, setup.nodes);
-  result.counts.source_points = static_cast<int>(setup.source.size());
-  result.counts.nodes = setup.problem->node_count();
-  result.counts.edges = static_cast<int>(setup.problem->graph().edges.size());
-  result.counts.constraints = static_cast<int>(setup.selected.size());
-  result.counts.unknowns = setup.problem->unknown_count();
-  result.counts.outer_iterations = loop.iterations();
-  result.termination = loop.termination();
-  result.source = std::move(setup.source);
-  result.aligned_points = std::move(setup.aligned.points);
-  result.alignment = setup.alignment;
+  result.points = unflatten(moved_.points);
+  result.normals = unflatten(moved_.normals);
+  result.node_positions = pick(scene_.aligned.points, model_.nodes);
+  result.counts.source_points = static_cast<int>(scene_.source.size());
+  result.counts.nodes = model_.problem->node_count();
+  result.counts.edges = static_cast<int>(model_.problem->graph().edges.size());
+  result.counts.constraints = static_cast<int>(model_.selected.size());
+  result.counts.unknowns = model_.problem->unknown_count();
+  result.counts.outer_iterations = iterations_;
+  result.termination = termination_;
+  result.time_ms = times_;
+  for (const auto& [stage, time] : device_.take_stage_times()) result.time_ms[stage] += time;
+  record_solves(summaries_, result);
+  result.source = std::move(scene_.source);
+  result.aligned_points = std::move(scene_.aligned.points);
+  result.alignment = scene_.alignment;
   return result;
 }
 
@@ -240,26 +284,20 @@ RegistrationResult to_result(Setup&& setup, const Loop& loop) {
 RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,
                                  std::uint64_t seed, const ProgressSink& progress) {
   const Stopwatch watch;
-  StageTimes times;
   device.measure_stages(true);
-  Setup setup = set_up(pair, method, device, seed, times);
-  Loop loop(setup, method, device);
-  loop.run(pair, progress);
-  RegistrationResult result = to_result(std::move(setup), loop);
-  result.time_ms = std::move(times);
-  for (const auto& [stage, time] : device.take_stage_times()) result.time_ms[stage] += time;
+  Registration registration(pair, method, device, seed);
+  registration.run(progress);
+  RegistrationResult result = registration.take_result();
   device.measure_stages(false);
-  record_solves(loop.summaries(), result);
   result.total_ms = watch.milliseconds();
   return result;
 }
 
 std::unique_ptr<Problem> freeze_problem(const FramePair& pair, const Method& method, Device& device,
                                         std::uint64_t seed) {
-  StageTimes times;
-  Setup setup = set_up(pair, method, device, seed, times);
-  method.correspondence->match(device, setup.rest, setup.selected, setup.target, *setup.constraints);
-  return std::move(setup.problem);
+  Registration registration(pair, method, device, seed);
+  registration.match();
+  return registration.take_problem();
 }
 
 }  // namespace pliant

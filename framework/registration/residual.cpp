@@ -16,16 +16,17 @@ ResidualMeter::ResidualMeter(Device& device, const Target& target, std::size_t p
     : device_(&device),
       target_(&target),
       chunks_((point_count + chunk - 1) / chunk),
+      per_point_(point_count),
       partials_(device.allocate(chunks_ * sizeof(cl_float2))),
       total_(device.allocate(sizeof(cl_float2))) {}
 
 Residual ResidualMeter::measure(const Array<float>& moved) {
   constexpr auto source = embedded::framework_registration_projection_cl;
-  auto sum = device_->kernel(source, "sum_residuals");
+  auto sum = device_->kernel(source, "residuals");
   auto total = device_->kernel(source, "total_residual");
   device_->run("residual", sum, chunks_, 1, static_cast<cl_int>(moved.size() / 3), moved.device(*device_),
                pinhole(target_->camera), image_size(target_->camera), target_->points.device(*device_),
-               partials_);
+               per_point_.write_device(*device_), partials_);
   device_->run("residual", total, 1, 1, static_cast<cl_int>(chunks_), partials_, total_);
   std::array<float, 2> record{};
   device_->read(total_, record.data(), sizeof(record));
@@ -33,15 +34,20 @@ Residual ResidualMeter::measure(const Array<float>& moved) {
           static_cast<int>(record[1])};
 }
 
-Residual measure_residual_reference(const Target& target, const Array<float>& moved) {
+Residual measure_residual_reference(const Target& target, const Array<float>& moved,
+                                    std::vector<float>& per_point) {
   Residual residual;
   double sum = 0;
   const auto& values = moved.host();
+  per_point.assign(values.size() / 3, -1);
   for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
     const Eigen::Vector3f point(values[i], values[i + 1], values[i + 2]);
     const auto pixel = target_pixel_reference(target, point);
     if (!pixel) continue;
-    sum += (point - Eigen::Map<const Eigen::Vector3f>(target.points.host().data() + 3 * *pixel)).norm();
+    const float distance =
+        (point - Eigen::Map<const Eigen::Vector3f>(target.points.host().data() + 3 * *pixel)).norm();
+    per_point[i / 3] = distance;
+    sum += distance;
     ++residual.landed;
   }
   if (residual.landed > 0) residual.mean = sum / residual.landed;

@@ -17,16 +17,20 @@ class ResidualMeter {
   ResidualMeter(Device& device, const Target& target, std::size_t point_count);
   /// `moved`: x y z of each of the points, mm.
   Residual measure(const Array<float>& moved);
+  /// What was measured last, point by point, in mm; -1 where a point meets no target point.
+  const Array<float>& per_point() const { return per_point_; }
 
  private:
   Device* device_;
   const Target* target_;
   std::size_t chunks_;
+  Array<float> per_point_;
   cl::Buffer partials_;
   cl::Buffer total_;
 };
 
-/// Plain C++ reference of ResidualMeter::measure.
-Residual measure_residual_reference(const Target& target, const Array<float>& moved);
+/// Plain C++ reference of ResidualMeter: fills `per_point`.
+Residual measure_residual_reference(const Target& target, const Array<float>& moved,
+                                    std::vector<float>& per_point);
 
 }  // namespace pliant

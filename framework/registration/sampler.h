@@ -1,7 +1,9 @@
 #pragma once
 
-#include <vector>
+#include <memory>
 
+#include "framework/geometry/camera.h"
+#include "framework/geometry/point_selection.h"
 #include "framework/geometry/surface.h"
 
 namespace pliant {
@@ -11,8 +13,9 @@ class ConstraintSampler {
  public:
   static constexpr const char* kind = "sampler";
   virtual ~ConstraintSampler() = default;
-  /// Indices of points of `source`, ascending, without repetition.
-  virtual std::vector<int> select(const Surface& source) const = 0;
+  /// `source`: pixels are those of the camera's image. Both must outlive what is returned.
+  virtual std::unique_ptr<PointSelection> select(Device& device, const Surface& source,
+                                                 const Camera& camera) const = 0;
 };
 
 }  // namespace pliant

@@ -10,7 +10,9 @@ namespace {
 class UniformSampler : public ConstraintSampler {
  public:
   explicit UniformSampler(int step) : step_(step) {}
-  std::vector<int> select(const Surface& source) const override { return points_on_grid(source, step_); }
+  std::unique_ptr<PointSelection> select(Device&, const Surface& source, const Camera&) const override {
+    return std::make_unique<FixedSelection>(points_on_grid(source, step_));
+  }
 
  private:
   int step_;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/device/array.h"
+
+namespace pliant {
+
+/// Some of the points of a surface, chosen once or anew wherever the surface does not yet fit.
+class PointSelection {
+ public:
+  virtual ~PointSelection() = default;
+
+  /// Indices of points of the surface, ascending, without repetition.
+  virtual const std::vector<int>& points() const = 0;
+
+  /// Chooses anew from how far each point of the surface lies from its target: `residuals`, mm, one a point,
+  /// negative where it is not known. Returns whether the selection changed.
+  virtual bool adapt(Device& device, const Array<float>& residuals) = 0;
+};
+
+/// A selection that never changes.
+class FixedSelection : public PointSelection {
+ public:
+  explicit FixedSelection(std::vector<int> points) : points_(std::move(points)) {}
+  const std::vector<int>& points() const override { return points_; }
+  bool adapt(Device&, const Array<float>&) override { return false; }
+
+ private:
+  std::vector<int> points_;
+};
+
+}  // namespace pliant
