@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -110,7 +111,7 @@ TEST(SurfaceMap, OnlyTheMaskCounts) {
 
 TEST(SurfaceMap, TooFewOrCollinearNeighboursGiveNoNormal) {
   RgbdFrame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
-  for (const auto [u, v] : {std::pair(50, 50), {51, 50}, {50, 51}}) frame.depth(u, v) = 800;
+  for (const auto& [u, v] : {std::pair(50, 50), {51, 50}, {50, 51}}) frame.depth(u, v) = 800;
   for (int u = 90; u < 100; ++u) frame.depth(u, 50) = 800;
   SurfaceMap map = make_surface_map(frame, kCamera);
   EXPECT_EQ(map.normals(50, 50), Eigen::Vector3f(0, 0, 0)) << "two neighbours";
