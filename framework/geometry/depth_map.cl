@@ -5,12 +5,14 @@
 
 #if WIDTH == 16
 typedef float16 Lanes;
+typedef int16 Truth;  // of a comparison, lane by lane
 #define LOAD(address) vload16(0, address)
 #define STORE(value, address) vstore16(value, 0, address)
 #define LANE_OFFSETS ((Lanes)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #define ANY(condition) any(condition)
 #elif WIDTH == 1
 typedef float Lanes;
+typedef int Truth;
 #define LOAD(address) (*(address))
 #define STORE(value, address) (*(address) = (value))
 #define LANE_OFFSETS 0
@@ -81,6 +83,12 @@ Vector scaled(Vector v, Lanes factor) {
   return product;
 }
 
+// `v` where the condition holds, 0 elsewhere, whatever stands there (a product would let NaN through).
+Vector only(Truth condition, Vector v) {
+  const Vector chosen = {WHERE(condition, v.x), WHERE(condition, v.y), WHERE(condition, v.z)};
+  return chosen;
+}
+
 Vector times(Symmetric a, Vector v) {
   const Vector product = {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
                           a.xz * v.x + a.yz * v.y + a.zz * v.z};
@@ -134,7 +142,7 @@ Vector plane_normal(Symmetric covariance) {
   const Lanes quotient = inner(rough, times(a, rough)) / fmax(inner(rough, rough), (Lanes)1e-30f);
   const Vector normal = eigenvector_near(a, quotient);
   const Lanes length = sqrt(inner(normal, normal));
-  return scaled(normal, WHERE(minors > (Lanes)FLATTEST && length > (Lanes)0, 1.0f / length));
+  return only(minors > (Lanes)FLATTEST && length > (Lanes)0, scaled(normal, 1.0f / length));
 }
 
 // The plane through the points of the window whose depth is near that of the centre, which has depth `z` on
@@ -169,7 +177,7 @@ Vector window_normal(global const float* centre, int stride, int radius, float d
   const Symmetric spread = {squares.xx - sum.x * mean.x, squares.xy - sum.x * mean.y,
                             squares.xz - sum.x * mean.z, squares.yy - sum.y * mean.y,
                             squares.yz - sum.y * mean.z, squares.zz - sum.z * mean.z};
-  return scaled(plane_normal(spread), WHERE(count >= (Lanes)FEWEST_POINTS, (Lanes)1));
+  return only(count >= (Lanes)FEWEST_POINTS, plane_normal(spread));
 }
 
 // x y z in turn of the first `count` of WIDTH pixels.
@@ -214,13 +222,8 @@ kernel void surface(global const float* depth, int stride, int2 size, float4 cam
     const Vector fitted = window_normal(centre, stride, radius, depth_step, z, ray_x, ray_y, pixel);
     const Vector ray = {ray_x, ray_y, 1};
     const Lanes sign = select((Lanes)1, (Lanes)-1, inner(fitted, ray) > (Lanes)0);  // faces the camera
-    // A lane without depth may hold NaN by now: chosen away, not multiplied.
-    normal.x = WHERE(HAS_DEPTH(z), fitted.x * sign);
-    normal.y = WHERE(HAS_DEPTH(z), fitted.y * sign);
-    normal.z = WHERE(HAS_DEPTH(z), fitted.z * sign);
-    point.x = WHERE(HAS_DEPTH(z), ray_x * z);
-    point.y = WHERE(HAS_DEPTH(z), ray_y * z);
-    point.z = WHERE(HAS_DEPTH(z), z);
+    normal = only(HAS_DEPTH(z), scaled(fitted, sign));
+    point = only(HAS_DEPTH(z), scaled(ray, z));
   }
   const int out = 3 * (v * size.x + u);
   store_vectors(point, size.x - u, points + out);

@@ -1,7 +1,5 @@
 #include "framework/geometry/point_set.h"
 
-#include <algorithm>
-
 namespace pliant {
 
 static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "vectors lie next to each other without gaps");
@@ -14,8 +12,7 @@ Array<float> flatten(const std::vector<Eigen::Vector3f>& vectors) {
 
 std::vector<Eigen::Vector3f> unflatten(const Array<float>& values) {
   std::vector<Eigen::Vector3f> vectors(values.size() / 3);
-  if (!vectors.empty())
-    std::copy(values.host().begin(), values.host().end(), vectors.front().data());
+  if (!vectors.empty()) values.copy_to(vectors.front().data());
   return vectors;
 }
 
