@@ -54,7 +54,8 @@ fs::path canonical_name(const fs::path& file) {
 /// Reads a file and, beneath it, those that it extends.
 class FileLoader {
  public:
-  FileLoader(const ConfigOverlay& overlay, ConfigErrors& errors) : overlay_(overlay), errors_(errors) {}
+  FileLoader(const ConfigOverlay& overlay, std::vector<fs::path> base_folders, ConfigErrors& errors)
+      : overlay_(overlay), base_folders_(std::move(base_folders)), errors_(errors) {}
 
   /// Empty when the file or one beneath it cannot be used; why is then among the errors.
   std::optional<ConfigNode> load(const fs::path& file) {
@@ -105,15 +106,28 @@ class FileLoader {
       return {};
     }
     const ConfigOrigin& here = *value.mark.origin;
-    const fs::path file = (here.folder / value.text).lexically_normal();
+    const fs::path beside = (here.folder / value.text).lexically_normal();
+    const fs::path file = find_base(beside, value.text);
     if (const std::string chain = circle(file); !chain.empty()) {
       errors_.add(value.mark, "'extends' goes in a circle: " + chain);
       return {};
     }
-    const fs::path shown = (fs::path(here.name).parent_path() / value.text).lexically_normal();
+    const fs::path shown =
+        file == beside ? (fs::path(here.name).parent_path() / value.text).lexically_normal() : file;
     const auto origin = std::make_shared<const ConfigOrigin>(
         ConfigOrigin{shown.string(), file.parent_path(), true, files_++});
     return load(file, origin, value.mark, "cannot extend " + in_quotes(file.string()) + ": ");
+  }
+
+  /// `beside` unless the file is not there but in one of the base folders.
+  fs::path find_base(const fs::path& beside, const fs::path& text) const {
+    std::error_code error;
+    if (text.is_absolute() || fs::exists(beside, error)) return beside;
+    for (const auto& folder : base_folders_) {
+      fs::path candidate = fs::absolute(folder / text).lexically_normal();
+      if (fs::exists(candidate, error)) return candidate;
+    }
+    return beside;
   }
 
   /// "a.yaml -> b.yaml -> a.yaml" where extending `file` would close a circle; empty elsewhere.
@@ -132,6 +146,7 @@ class FileLoader {
   };
 
   const ConfigOverlay& overlay_;
+  std::vector<fs::path> base_folders_;
   ConfigErrors& errors_;
   std::vector<Link> chain_;
   int files_ = 0;
@@ -243,7 +258,7 @@ std::string Experiment::to_yaml() const {
 Experiment load_experiment(const ConfigSource& source, const ParameterTable& root, const Registry& registry) {
   ConfigErrors errors;
   const ConfigOverlay overlay(root, registry);
-  FileLoader loader(overlay, errors);
+  FileLoader loader(overlay, source.base_folders, errors);
   auto tree = loader.load(source.file);
   if (!tree) errors.throw_if_any();
   lay_sets_over(*tree, source.sets, loader.files(), overlay, errors);

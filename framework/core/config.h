@@ -21,6 +21,9 @@ struct ConfigSource {
   /// Where files named in the experiment are looked for, in this order, after the folder of the YAML file
   /// that names them (for `sets`: after the current folder).
   std::vector<std::filesystem::path> data_folders;
+  /// Where a relative file in `extends` is looked for, in this order, when it is not found beside the file
+  /// that names it: the folders of methods that come with an installation.
+  std::vector<std::filesystem::path> base_folders = {};
 };
 
 /// A checked experiment.
@@ -37,8 +40,8 @@ struct Experiment {
 };
 
 /// Reads an experiment file strictly against the table `root`. A file may name another one in its top-level
-/// key `extends` (absolute, or relative to itself), over which it is laid: maps merge, the overlay wins, and
-/// a section that names another component replaces the whole section.
+/// key `extends` (absolute, relative to itself, or else to one of the base folders), over which it is laid:
+/// maps merge, the overlay wins, and a section that names another component replaces the whole section.
 ///
 /// Throws one ConfigError that tells everything that is wrong, one line each:
 /// `file:line:column: what is wrong; what was expected; did you mean 'x'?`

@@ -8,7 +8,8 @@
 namespace pliant {
 
 /// Values that live on the host, on one device, or on both; each side is brought up to date when it is
-/// asked for. Reading on the host after the device wrote waits for the device.
+/// asked for. Reading on the host after the device wrote waits for the device. A copy goes through the host
+/// and shares nothing with its original.
 template <class T>
 class Array {
  public:
@@ -16,6 +17,11 @@ class Array {
   explicit Array(std::vector<T> values) : host_(std::move(values)), size_(host_.size()) {}
   /// Uninitialised values that a device will write.
   explicit Array(std::size_t size) : size_(size), host_is_current_(size == 0) {}
+  Array(const Array& other) : Array(other.host()) {}
+  Array(Array&&) noexcept = default;
+  Array& operator=(const Array& other) { return *this = Array(other); }
+  Array& operator=(Array&&) noexcept = default;
+  ~Array() = default;
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "framework/registration/align_automatic.h"
 #include "framework/registration/align_features.h"
 #include "framework/registration/alignment.h"
 
@@ -19,6 +20,7 @@ void register_alignments(Registry& registry) {
   registry.add<Alignment>("none", "Leaves the source where it is", {},
                           [](const Parameters&, const Registry&) { return std::make_unique<NoAlignment>(); });
   register_feature_alignment(registry);
+  register_automatic_alignment(registry);
 }
 
 }  // namespace pliant

@@ -4,7 +4,7 @@
 
 namespace pliant {
 
-/// Adds `none` and `features`.
+/// Adds `none`, `features` and `automatic`.
 void register_alignments(Registry& registry);
 
 }  // namespace pliant

@@ -16,8 +16,8 @@ namespace pliant {
 /// When the outer loop of Figure 4.1 ends.
 struct StoppingRule {
   int max_iterations = 30;
-  double residual = 0;       ///< mm; ends when the mean residual is below
-  double min_progress = 0;   ///< ends when the mean residual falls by less than this share of itself
+  double residual = 0;         ///< mm; ends when the mean residual is below
+  double min_progress = 1e-3;  ///< ends when the mean residual falls by less than this share of itself
 };
 
 /// How a pair is registered: the components that an experiment file puts together.

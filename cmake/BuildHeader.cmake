@@ -1,0 +1,18 @@
+# Writes what the program tells of its own build into OUTPUT (see experiments/runner).
+execute_process(COMMAND git describe --always --dirty --exclude=* --abbrev=12
+  WORKING_DIRECTORY "${SOURCE}" OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
+  RESULT_VARIABLE FAILED)
+if(FAILED)
+  set(COMMIT unknown) # no git, or not a checkout
+endif()
+file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT [[
+// Made by cmake/BuildHeader.cmake; do not edit.
+#pragma once
+#define PLIANT_VERSION "@VERSION@"
+#define PLIANT_COMMIT "@COMMIT@"
+#define PLIANT_CERES_VERSION "@CERES@"
+#define PLIANT_EIGEN_VERSION "@EIGEN@"
+#define PLIANT_FLANN_VERSION "@FLANN@"
+#define PLIANT_OPENCV_VERSION "@OPENCV@"
+#define PLIANT_YAML_CPP_VERSION "@YAML_CPP@"
+]])

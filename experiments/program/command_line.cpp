@@ -1,0 +1,198 @@
+#include "experiments/program/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "experiments/program/commands.h"
+#include "experiments/program/reproduce.h"
+#include "experiments/runner/version.h"
+#include "framework/core/error.h"
+#include "framework/core/nearest.h"
+
+namespace pliant {
+namespace {
+
+constexpr int bad_arguments = 2;
+
+constexpr const char* overview = R"(Real-time adaptive non-rigid registration of depth maps.
+
+First steps:
+  pliant reproduce --quick            everything that can be reproduced, in short
+  pliant run experiments/sheet.yaml   one experiment; results in out/sheet
+  pliant components                   what experiment files can name
+
+From the source tree the launcher ./pliant builds what has changed first, and has two commands more:
+  ./pliant test [CTEST OPTION...]     builds and runs the tests
+  ./pliant bench [OPTION...]          builds and runs the benchmarks
+)";
+
+constexpr const char* run_examples = R"(
+Examples:
+  pliant run experiments/sheet.yaml
+  pliant run experiments/sheet.yaml --set data.amplitude=30 --set solver=ceres_lm --out out/bent
+  pliant run my.yaml --data ~/recordings
+
+An experiment on data of your own is a file like this one:
+  extends: methods/ed.yaml
+  data:
+    type: rgbd_pair
+    source: {depth: a.png, color: a.jpg, mask: a_mask.png}   # color and mask are optional
+    target: {depth: b.png, color: b.jpg}
+    intrinsics: intrinsics.txt
+
+Files that it names are looked for beside it, then below --data, the variable PLIANT_DATA and data/ of the
+project. Exit codes: 2 configuration, 3 data, 4 device, 5 numerical.
+)";
+
+constexpr const char* check_examples = R"(
+Example:
+  pliant check my.yaml --set seed=2    every error of the file at once, with its place; exit code 2
+)";
+
+constexpr const char* compare_examples = R"(
+Example:
+  pliant compare experiments/compare_solvers.yaml --set compare.repetitions=3
+
+The file lists the solvers under names of their own:
+  solvers:
+    device: gauss_newton
+    ceres: {type: ceres_lm, linear_solver: cgnr}
+)";
+
+constexpr const char* components_examples = R"(
+Examples:
+  pliant components                          every component by kind, with a line about each
+  pliant components solver gauss_newton      its parameters: units, defaults, ranges
+  pliant components --json > schema.json     a JSON Schema with which editors complete experiment files
+)";
+
+constexpr const char* reproduce_examples = R"(
+Example:
+  pliant reproduce --quick --out out/quick --data ~/data
+
+Experiments on data that is not found are skipped, and say where it was looked for.
+)";
+
+/// Values that the arguments are parsed into.
+struct Arguments {
+  ExperimentOptions experiment;
+  std::string kind;
+  std::string name;
+  bool json = false;
+  bool quick = false;
+};
+
+void add_set_and_data(CLI::App& command, ExperimentOptions& options) {
+  command.add_option("FILE.yaml", options.file, "The experiment")->required();
+  command.add_option("--set", options.sets, "Lays one value over the file, e.g. data.noise=1; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command
+      .add_option("--data", options.data, "Folder in which files that the experiment names are looked for")
+      ->type_name("DIR");
+}
+
+void add_out(CLI::App& command, ExperimentOptions& options, const std::string& fallback) {
+  command.add_option("--out", options.out, "Folder for the results; " + fallback + " by default")
+      ->type_name("DIR");
+}
+
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what,
+                      const std::string& examples) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->footer(examples);
+  return command;
+}
+
+void add_commands(CLI::App& app, Arguments& arguments) {
+  auto& experiment = arguments.experiment;
+  auto* reproduce =
+      add_command(app, "reproduce", "Makes every experiment that comes with Pliant", reproduce_examples);
+  reproduce->add_flag("--quick", arguments.quick, "The short form: under a minute");
+  add_out(*reproduce, experiment, "out/reproduce");
+  reproduce->add_option("--data", experiment.data, "Folder with recorded data")->type_name("DIR");
+  reproduce->callback([&] { reproduce_command(arguments.quick, experiment.out, experiment.data); });
+
+  auto* run = add_command(app, "run", "Registers what an experiment file describes", run_examples);
+  add_set_and_data(*run, experiment);
+  add_out(*run, experiment, "out/<name of the experiment>");
+  run->callback([&] { run_command(experiment); });
+
+  auto* check =
+      add_command(app, "check", "Tries everything of an experiment without registering", check_examples);
+  add_set_and_data(*check, experiment);
+  check->callback([&] { check_command(experiment); });
+
+  auto* compare =
+      add_command(app, "compare", "The same frozen problem through every solver of a file", compare_examples);
+  add_set_and_data(*compare, experiment);
+  add_out(*compare, experiment, "out/<name of the experiment>");
+  compare->callback([&] { compare_command(experiment); });
+
+  auto* components = add_command(app, "components", "What experiment files can name, with all parameters",
+                                 components_examples);
+  components->add_option("KIND", arguments.kind, "Only this kind, e.g. solver");
+  components->add_option("NAME", arguments.name, "Only this component, with its parameters");
+  components->add_flag("--json", arguments.json, "A JSON Schema of experiment files, for editors");
+  components->callback([&] { components_command(arguments.kind, arguments.name, arguments.json); });
+
+  auto* devices = app.add_subcommand("devices", "The OpenCL devices of this machine");
+  devices->callback([] { devices_command(); });
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// A first word that is no command gets an answer of its own: CLI11 would only call it unexpected.
+void check_command_word(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string word = argv[1];
+  const auto names = command_names(app);
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  if (word == "test" || word == "bench")
+    throw ConfigError(fmt::format("'{0}' needs the source tree: run ./pliant {0} there", word));
+  throw ConfigError(fmt::format("unknown command '{}'; expected one of {}{}", word, fmt::join(names, ", "),
+                                suggestion(word, names)));
+}
+
+int parse(CLI::App& app, int argc, char** argv) {
+  try {
+    check_command_word(app, argc, argv);
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    fmt::print(stderr, "error: {}; see pliant {}--help\n", error.what(),
+               app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ");
+    return bad_arguments;
+  }
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app(overview, "pliant");
+  app.set_version_flag("--version", fmt::format("pliant {} ({})", version(), commit()));
+  app.require_subcommand(1);
+  Arguments arguments;
+  add_commands(app, arguments);
+  try {
+    return parse(app, argc, argv);
+  } catch (const Error& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return error.exit_code();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: unforeseen: {}\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,110 @@
+#include "experiments/program/commands.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "experiments/program/folders.h"
+#include "experiments/program/progress_line.h"
+#include "experiments/runner/compare.h"
+#include "experiments/runner/components.h"
+#include "experiments/runner/runner.h"
+#include "framework/core/error.h"
+#include "framework/core/nearest.h"
+#include "framework/core/schema.h"
+
+namespace pliant {
+namespace {
+
+namespace fs = std::filesystem;
+
+Registry all_components() {
+  Registry registry;
+  register_everything(registry);
+  return registry;
+}
+
+fs::path out_folder(const ExperimentOptions& options, const ExperimentPlan& plan) {
+  return options.out.empty() ? fs::path("out") / plan.name : fs::path(options.out);
+}
+
+}  // namespace
+
+ConfigSource config_source(const ExperimentOptions& options) {
+  return {options.file, options.sets, data_folders(options.data), {experiments_folder()}};
+}
+
+void run_command(const ExperimentOptions& options) {
+  const Registry registry = all_components();
+  const ExperimentPlan plan = plan_experiment(config_source(options), registry);
+  const fs::path folder = out_folder(options, plan);
+  Workbench workbench(registry);
+  std::vector<RunRecord> runs;
+  {
+    ProgressLine line;
+    runs = run_experiment(plan, folder, workbench, line.sink());
+  }
+  fmt::print("{}\n", to_text(run_table(plan, runs)));
+  for (const auto& run : runs)
+    fmt::print("{}: {} after {} outer iterations; {} with {}\n", run.name, run.result.termination,
+               run.result.counts.outer_iterations, run.result.solver.name, run.result.solver.linear_solver);
+  fmt::print("Results are in {}\n", folder.string());
+}
+
+void check_command(const ExperimentOptions& options) {
+  const Registry registry = all_components();
+  const ExperimentPlan plan = plan_experiment(config_source(options), registry);
+  Workbench workbench(registry);
+  check_experiment(plan, workbench);
+  fmt::print("{}: good; it makes {} run{}:", options.file, plan.runs.size(),
+             plan.runs.size() == 1 ? "" : "s");
+  for (const auto& run : plan.runs) fmt::print(" {}", run.name);
+  fmt::print("\n");
+}
+
+void compare_command(const ExperimentOptions& options) {
+  const Registry registry = all_components();
+  const ExperimentPlan plan = plan_experiment(config_source(options), registry);
+  const fs::path folder = out_folder(options, plan);
+  Workbench workbench(registry);
+  std::vector<RunComparison> comparisons;
+  {
+    ProgressLine line;
+    comparisons = compare_solvers(plan, folder, workbench, line.sink());
+  }
+  for (const auto& table : compare_tables(comparisons)) fmt::print("{}\n", to_text(table));
+  fmt::print("Results are in {}\n", folder.string());
+}
+
+void components_command(const std::string& kind, const std::string& name, bool as_json) {
+  const Registry registry = all_components();
+  if (as_json) {
+    fmt::print("{}\n", json_schema(experiment_table(), registry).dump(2));
+    return;
+  }
+  const std::string list = list_components(registry, kind);
+  if (name.empty()) {
+    fmt::print("{}", list);
+    return;
+  }
+  const ComponentInfo* info = registry.find(kind, name);
+  if (info == nullptr) {
+    std::vector<std::string> names;
+    for (const auto* component : registry.components(kind)) names.push_back(component->name);
+    throw ConfigError(fmt::format("unknown {} '{}'; expected one of {}{}", kind, name, fmt::join(names, ", "),
+                                  suggestion(name, names)));
+  }
+  fmt::print("{}", describe(*info));
+}
+
+void devices_command() {
+  const auto devices = Device::list();
+  if (devices.empty())
+    throw DeviceError("there is no OpenCL device; install a driver, e.g. the package pocl-opencl-icd");
+  for (const auto& device : devices)
+    fmt::print("{}\n  {}, {} compute units, {} MiB\n  {}; {}; driver {}\n", device.name,
+               device.is_gpu ? "GPU" : "CPU", device.compute_units, device.memory_bytes >> 20,
+               device.platform, device.version, device.driver);
+}
+
+}  // namespace pliant

@@ -1,0 +1,46 @@
+#include "experiments/program/progress_line.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace pliant {
+namespace {
+
+constexpr int bar_width = 24;
+
+/// Columns of the terminal; a longer line would wrap and could not be redrawn.
+std::size_t terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine() : is_terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+  if (is_terminal_) fmt::print(stderr, "\r\033[K");
+}
+
+ProgressSink ProgressLine::sink() {
+  return [this](const Progress& progress) { show(progress); };
+}
+
+void ProgressLine::show(const Progress& progress) const {
+  if (!is_terminal_) {
+    fmt::print(stderr, "{}: {}\n", progress.what, progress.message);
+    return;
+  }
+  const auto filled = static_cast<int>(std::lround(bar_width * std::clamp(progress.done, 0.0, 1.0)));
+  const std::string line = fmt::format("[{}{}] {}: {}", std::string(filled, '#'),
+                                       std::string(bar_width - filled, '.'), progress.what, progress.message);
+  fmt::print(stderr, "\r\033[K{}", line.substr(0, terminal_width() - 1));
+  std::fflush(stderr);
+}
+
+}  // namespace pliant

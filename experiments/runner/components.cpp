@@ -1,0 +1,27 @@
+#include "experiments/runner/components.h"
+
+#include "energies/energies.h"
+#include "experiments/datasets/datasets.h"
+#include "experiments/report/reports.h"
+#include "framework/deformation/node_transform.h"
+#include "framework/registration/alignments.h"
+#include "framework/registration/correspondence.h"
+#include "graphs/graphs.h"
+#include "samplers/samplers.h"
+#include "solvers/solvers.h"
+
+namespace pliant {
+
+void register_everything(Registry& registry) {
+  register_datasets(registry);
+  register_alignments(registry);
+  register_graphs(registry);
+  register_transforms(registry);
+  register_samplers(registry);
+  register_correspondences(registry);
+  register_energies(registry);
+  register_solvers(registry);
+  register_reports(registry);
+}
+
+}  // namespace pliant

@@ -1,0 +1,99 @@
+#include "experiments/runner/experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "experiments/datasets/data_source.h"
+#include "experiments/report/report.h"
+#include "framework/core/error.h"
+#include "framework/core/nearest.h"
+#include "framework/registration/method.h"
+
+namespace pliant {
+namespace {
+
+ParameterTable compare_table() {
+  return {
+      integer("repetitions", 5).range(1, 1000).doc("solves that are timed, after one that is not"),
+      real("max_seconds", 20).unit("s").above(0).doc("no further solve of a solver is begun after this time"),
+  };
+}
+
+/// Results are kept in folders of these names, so they must be fit for one.
+void check_name(const std::string& name, const std::string& file, const std::string& what) {
+  const bool is_good =
+      !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '+' || c == '=';
+      });
+  if (is_good) return;
+  throw ConfigError(
+      fmt::format("{}: {} '{}' cannot name a folder; expected letters, digits and the signs _ - . + =", file,
+                  what, name));
+}
+
+void check_quick(const ExperimentPlan& plan, const std::string& file) {
+  std::vector<std::string> names;
+  for (const auto& run : plan.runs) names.push_back(run.name);
+  for (const auto& name : plan.experiment.values.words("quick")) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw ConfigError(fmt::format("{}: 'quick' lists '{}', which is no run; expected {}{}", file, name,
+                                  fmt::join(names, ", "), suggestion(name, names)));
+  }
+}
+
+/// The experiment says its own name also where the file left it to the file's name, so that what is written
+/// beside the results is the same experiment.
+void name_experiment(ExperimentPlan& plan, const ConfigSource& source) {
+  const Parameters& values = plan.experiment.values;
+  plan.name = values.has("name") ? values.text("name") : source.file.stem().string();
+  if (values.has("name")) return;
+  nlohmann::ordered_json named = {{"name", plan.name}};
+  named.update(plan.experiment.tree);
+  plan.experiment.tree = std::move(named);
+}
+
+}  // namespace
+
+ParameterTable experiment_table() {
+  std::vector<Parameter> rows{
+      text("name").optional().doc("of the experiment; the file's name by default"),
+      integer("seed", 1).range(0, 4294967295.0).doc("of everything that is drawn at random"),
+      text("device", "any").doc("OpenCL device: any, cpu, gpu, or a part of its name"),
+      component("data", DataSource::kind).doc("what is registered"),
+  };
+  for (auto& row : method_rows()) rows.push_back(std::move(row));
+  rows.push_back(components("reports", Report::kind).optional().doc("what is written about each run"));
+  rows.push_back(overrides("runs").doc("variants that are run instead of the experiment itself"));
+  rows.push_back(components("solvers", Solver::kind)
+                     .optional()
+                     .doc("what `pliant compare` lets solve the first problem of each run"));
+  rows.push_back(group("compare", compare_table()).doc("how `pliant compare` measures"));
+  rows.push_back(words("quick").optional().doc("runs that `pliant reproduce --quick` makes; all by default"));
+  return ParameterTable(std::move(rows));
+}
+
+void ExperimentPlan::keep_quick_runs() {
+  const auto& quick = experiment.values.words("quick");
+  if (quick.empty()) return;
+  std::erase_if(
+      runs, [&](const Run& run) { return std::find(quick.begin(), quick.end(), run.name) == quick.end(); });
+}
+
+ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& registry) {
+  ExperimentPlan plan;
+  plan.experiment = load_experiment(source, experiment_table(), registry);
+  name_experiment(plan, source);
+  const std::string file = source.file.string();
+  check_name(plan.name, file, "the experiment's name");
+  for (const auto& [name, values] : plan.experiment.values.sections("runs")) {
+    check_name(name, file, "the run's name");
+    plan.runs.push_back({name, values});
+  }
+  if (plan.runs.empty()) plan.runs.push_back({plan.name, plan.experiment.values});
+  check_quick(plan, file);
+  return plan;
+}
+
+}  // namespace pliant

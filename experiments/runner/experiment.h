@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/core/config.h"
+
+namespace pliant {
+
+/// The keys of an experiment file.
+ParameterTable experiment_table();
+
+/// A checked experiment and the registrations it asks for.
+struct ExperimentPlan {
+  struct Run {
+    std::string name;
+    Parameters values;  ///< the whole experiment, with the run's own values laid over it
+  };
+
+  std::string name;  ///< of the experiment: its `name`, else the file's
+  Experiment experiment;
+  std::vector<Run> runs;  ///< at least one
+
+  /// Leaves out the runs that `quick` does not list, where it lists any.
+  void keep_quick_runs();
+};
+
+/// Reads an experiment file (see load_experiment). Throws ConfigError with every error of the file, also for
+/// names that cannot name a folder.
+ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& registry);
+
+}  // namespace pliant

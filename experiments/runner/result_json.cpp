@@ -1,0 +1,104 @@
+#include "experiments/runner/result_json.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "experiments/runner/version.h"
+#include "framework/core/error.h"
+#include "framework/io/file.h"
+
+namespace pliant {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json metrics_json(const Metrics& metrics) {
+  ordered_json json = {{"residual_mean", metrics.residual_mean},
+                       {"residual_sd", metrics.residual_sd},
+                       {"coverage", metrics.coverage},
+                       {"nearest_mean", metrics.nearest_mean},
+                       {"nearest_sd", metrics.nearest_sd}};
+  if (!metrics.truth) return json;
+  json["epe_mean"] = metrics.truth->epe_mean;
+  json["epe_sd"] = metrics.truth->epe_sd;
+  json["epe_p95"] = metrics.truth->epe_p95;
+  json["epe_moving_mean"] = metrics.truth->epe_moving_mean;
+  return json;
+}
+
+ordered_json counts_json(const RegistrationResult::Counts& counts) {
+  return {{"source_points", counts.source_points},
+          {"nodes", counts.nodes},
+          {"edges", counts.edges},
+          {"constraints", counts.constraints},
+          {"unknowns", counts.unknowns},
+          {"outer_iterations", counts.outer_iterations},
+          {"solver_iterations", counts.solver_iterations}};
+}
+
+void check_finite(const ordered_json& json, const std::string& key) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>()))
+    throw NumericalError(fmt::format("{} is {}; there is no finite answer", key, json.get<double>()));
+  if (json.is_object()) {
+    for (const auto& [name, value] : json.items()) check_finite(value, key.empty() ? name : key + "." + name);
+  }
+  if (json.is_array()) {
+    for (std::size_t i = 0; i < json.size(); ++i) check_finite(json[i], fmt::format("{}[{}]", key, i));
+  }
+}
+
+}  // namespace
+
+ordered_json environment_json(const DeviceInfo& device, const ExperimentPlan& plan) {
+  ordered_json libraries_json = ordered_json::object();
+  for (const auto& [name, number] : libraries()) libraries_json[name] = number;
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return {{"version", version()},
+          {"commit", commit()},
+          {"device", device.name},
+          {"opencl_driver", fmt::format("{} {} ({})", device.platform, device.driver, device.version)},
+          {"libraries", libraries_json},
+          {"seed", plan.experiment.values.integer("seed")},
+          {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))}};
+}
+
+ordered_json run_json(const RunRecord& run) {
+  const RegistrationResult& result = run.result;
+  ordered_json times = {{"total", result.total_ms}};
+  for (const auto& [stage, milliseconds] : result.time_ms) times[stage] = milliseconds;
+  return {{"name", run.name},
+          {"counts", counts_json(result.counts)},
+          {"metrics", metrics_json(run.metrics)},
+          {"initial", metrics_json(run.initial)},
+          {"aligned", metrics_json(run.aligned)},
+          {"energy",
+           {{"initial", result.energy.initial},
+            {"final", result.energy.final},
+            {"per_iteration", result.energy.per_iteration}}},
+          {"time_ms", times},
+          {"solver",
+           {{"name", result.solver.name},
+            {"linear_solver", result.solver.linear_solver},
+            {"termination", result.solver.termination}}}};
+}
+
+ordered_json result_json(const ExperimentPlan& plan, const DeviceInfo& device,
+                         const std::vector<RunRecord>& runs) {
+  ordered_json list = ordered_json::array();
+  for (const auto& run : runs) list.push_back(run_json(run));
+  return {{"schema", 1},
+          {"experiment", plan.experiment.to_json()},
+          {"environment", environment_json(device, plan)},
+          {"runs", list}};
+}
+
+void write_json(const std::string& path, const ordered_json& json) {
+  check_finite(json, "");
+  const std::string text = json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  write_file(path, {text.begin(), text.end()});
+}
+
+}  // namespace pliant

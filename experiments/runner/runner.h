@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/report/report.h"
+#include "experiments/runner/experiment.h"
+#include "experiments/runner/table.h"
+#include "experiments/runner/workbench.h"
+#include "framework/core/log.h"
+
+namespace pliant {
+
+/// Makes a folder and writes into it `experiment.yaml`, the whole experiment with every default, which
+/// stands alone and loads again. Done before long work so that a folder that cannot be written is found
+/// early: throws DataError naming it.
+void prepare_folder(const std::filesystem::path& folder, const ExperimentPlan& plan);
+
+/// Tries everything of an experiment short of registering: makes every component, opens the device, loads
+/// the data. Throws what running it would.
+void check_experiment(const ExperimentPlan& plan, Workbench& workbench);
+
+/// Makes every run of an experiment, and writes into `folder`: result.json, experiment.yaml, and what the
+/// reports write, of several runs each into a folder of its own name, with an index.html that leads there.
+std::vector<RunRecord> run_experiment(const ExperimentPlan& plan, const std::filesystem::path& folder,
+                                      Workbench& workbench, const ProgressSink& progress = {});
+
+/// The key figures of each run. Links lead from `folder_name` (empty: from inside the folder).
+Table run_table(const ExperimentPlan& plan, const std::vector<RunRecord>& runs,
+                const std::string& folder_name = "");
+
+}  // namespace pliant

@@ -1,0 +1,52 @@
+#include "experiments/runner/workbench.h"
+
+#include <fmt/format.h>
+
+#include <type_traits>
+
+#include "experiments/datasets/data_source.h"
+
+namespace pliant {
+namespace {
+
+/// The same text for sections that say the same.
+std::string fingerprint(const Parameters& section) {
+  std::string text = section.component() + "{";
+  for (const auto& value : section.values()) {
+    text += value.name + "=";
+    std::visit(
+        [&](const auto& held) {
+          using Held = std::decay_t<decltype(held)>;
+          if constexpr (std::is_same_v<Held, Parameters::Sections>) {
+            for (const auto& [label, inner] : held) text += label + ":" + fingerprint(inner);
+          } else if constexpr (std::is_same_v<Held, std::vector<std::string>>) {
+            for (const auto& word : held) text += word + ",";
+          } else {
+            text += fmt::format("{}", held);
+          }
+        },
+        value.value);
+    text += ";";
+  }
+  return text + "}";
+}
+
+}  // namespace
+
+Device& Workbench::device(const Parameters& experiment) {
+  auto& device = devices_[experiment.text("device")];
+  if (device == nullptr) device = std::make_unique<Device>(experiment.text("device"));
+  return *device;
+}
+
+const FramePair& Workbench::pair(const Parameters& experiment) {
+  const Parameters& section = experiment.section("data");
+  const auto seed = experiment.integer("seed");
+  const std::string key = fmt::format("{} {}", seed, fingerprint(section));
+  const auto known = pairs_.find(key);
+  if (known != pairs_.end()) return known->second;
+  const auto source = registry_.make<DataSource>(section);
+  return pairs_.emplace(key, source->load(static_cast<std::uint64_t>(seed))).first->second;
+}
+
+}  // namespace pliant

@@ -1,0 +1,77 @@
+#include "framework/registration/align_automatic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "framework/core/error.h"
+#include "framework/registration/align_features.h"
+#include "framework/registration/alignment.h"
+
+namespace pliant {
+namespace {
+
+bool has_point(const RgbdFrame& frame, int u, int v) {
+  const float depth = frame.depth(u, v);
+  return std::isfinite(depth) && depth > 0 && (frame.mask.empty() || frame.mask(u, v) != 0);
+}
+
+double cut_distance(const FramePair& pair, const Eigen::Vector3d& point, double cut) {
+  if (!(point.z() > 0)) return cut;
+  const Eigen::Vector2d pixel = pair.camera.project(point).array().round();
+  const bool is_inside = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < pair.target.depth.width() &&
+                         pixel.y() < pair.target.depth.height();
+  if (!is_inside) return cut;
+  const int u = static_cast<int>(pixel.x());
+  const int v = static_cast<int>(pixel.y());
+  if (!has_point(pair.target, u, v)) return cut;
+  return std::min(cut, (point - pair.camera.unproject(u, v, pair.target.depth(u, v))).norm());
+}
+
+class AutomaticAlignment : public Alignment {
+ public:
+  explicit AutomaticAlignment(const FeatureOptions& options) : options_(options) {}
+
+  AlignmentResult align(const FramePair& pair, std::uint64_t seed) const override {
+    if (pair.source.color.empty() || pair.target.color.empty()) return {};
+    PointMatches matches;
+    try {
+      matches = match_features(pair, options_.ratio);
+    } catch (const DataError&) {
+      return {};  // too little texture to align by
+    }
+    const AlignmentResult found = fit_rigid_ransac(matches, options_.ransac, seed);
+    const bool is_nearer =
+        cut_residual(pair, found.motion) < cut_residual(pair, Eigen::Isometry3d::Identity());
+    return found.inliers >= options_.min_inliers && is_nearer ? found : AlignmentResult{};
+  }
+
+ private:
+  FeatureOptions options_;
+};
+
+}  // namespace
+
+double cut_residual(const FramePair& pair, const Eigen::Isometry3d& motion, double cut) {
+  double sum = 0;
+  int count = 0;
+  for (int v = 2; v < pair.source.depth.height(); v += 4) {
+    for (int u = 2; u < pair.source.depth.width(); u += 4) {
+      if (!has_point(pair.source, u, v)) continue;
+      sum += cut_distance(pair, motion * pair.camera.unproject(u, v, pair.source.depth(u, v)), cut);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : cut;
+}
+
+void register_automatic_alignment(Registry& registry) {
+  registry.add<Alignment>(
+      "automatic",
+      "As `features` where there is colour and that brings the source nearer to the target; else as `none`",
+      {}, [](const Parameters&, const Registry&) {
+        return std::make_unique<AutomaticAlignment>(FeatureOptions{});
+      });
+}
+
+}  // namespace pliant

@@ -1,0 +1,162 @@
+#include "framework/device/device.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "framework/core/error.h"
+#include "framework/device/array.h"
+
+namespace pliant {
+namespace {
+
+constexpr auto kScale = R"(
+kernel void scale(int count, float factor, global float* values) {
+  const int i = get_global_id(0);
+  if (i < count) values[i] = factor * values[i];
+})";
+
+/// What the DeviceError of `action` says; empty when there is none.
+std::string device_error(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const DeviceError& error) {
+    EXPECT_EQ(error.exit_code(), 4);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Device, ListsWhatCanBeOpened) {
+  const auto devices = Device::list();
+  ASSERT_FALSE(devices.empty());
+  for (const auto& info : devices) {
+    EXPECT_FALSE(info.name.empty());
+    EXPECT_FALSE(info.platform.empty());
+    EXPECT_THAT(info.version, testing::StartsWith("OpenCL "));
+    EXPECT_GT(info.compute_units, 0);
+    EXPECT_GT(info.memory_bytes, 0U);
+    EXPECT_EQ(Device(info.name).info().is_gpu, info.is_gpu);
+  }
+  for (std::size_t i = 1; i < devices.size(); ++i)
+    EXPECT_LE(devices[i - 1].is_gpu, devices[i].is_gpu) << "processors come first";
+}
+
+TEST(Device, IsChosenByKindOrByAnyPartOfItsNameOrPlatform) {
+  const auto first = Device::list().front();
+  EXPECT_EQ(Device().info().name, first.name);
+  EXPECT_EQ(Device("ANY").info().name, first.name);
+  EXPECT_EQ(Device(first.is_gpu ? "gpu" : "cpu").info().is_gpu, first.is_gpu);
+  std::string shouted = first.platform;
+  for (auto& letter : shouted) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+  EXPECT_EQ(Device(shouted).info().platform, first.platform);
+  EXPECT_EQ(Device(first.name).width(), first.is_gpu ? 1 : 16);
+}
+
+TEST(Device, AnUnknownNameIsAnsweredWithTheKnownOnes) {
+  const auto message = device_error([] { Device device("abacus"); });
+  EXPECT_THAT(message, testing::HasSubstr("'abacus'"));
+  EXPECT_THAT(message, testing::HasSubstr(Device::list().front().name));
+}
+
+TEST(Device, AFailedBuildShowsTheLog) {
+  Device device;
+  const auto message = device_error(
+      [&] { device.kernel("kernel void broken(global int* x) { x[0] = missing_name; }", "broken"); });
+  EXPECT_THAT(message, testing::HasSubstr("kernel broken"));
+  EXPECT_THAT(message, testing::HasSubstr(device.info().name));
+  EXPECT_THAT(message, testing::HasSubstr("missing_name"));
+  EXPECT_NE(device_error([&] { device.kernel(kScale, "no_such_kernel"); }), "");
+  EXPECT_NO_THROW(device.kernel(kScale, "scale")) << "a failure leaves the device usable";
+}
+
+TEST(Device, KernelsSeeTheWidthAndTheirOptions) {
+  Device device;
+  auto kernel = device.kernel("kernel void tell(global int* out) { out[0] = WIDTH; out[1] = ANSWER; }",
+                              "tell", "-DANSWER=42");
+  Array<int> told(2);
+  device.run("tell", kernel, 1, 1, told.write_device(device));
+  EXPECT_THAT(told.host(), testing::ElementsAre(device.width(), 42));
+  auto other = device.kernel("kernel void tell(global int* out) { out[0] = WIDTH; out[1] = ANSWER; }", "tell",
+                             "-DANSWER=43");
+  device.run("tell", other, 1, 1, told.write_device(device));
+  EXPECT_THAT(told.host(), testing::ElementsAre(device.width(), 43)) << "other options, another program";
+}
+
+TEST(Device, RoundsTheRangeUpToWholeGroups) {
+  Device device;
+  auto kernel = device.kernel(
+      "kernel void count(global int* out) { out[get_global_id(0)] = get_global_size(0); }", "count");
+  Array<int> sizes(std::vector<int>(64, -1));
+  device.run("count", kernel, 33, 32, sizes.write_device(device));
+  EXPECT_THAT(sizes.host(), testing::Each(64));
+  Array<int> untouched(std::vector<int>{7});
+  device.run("count", kernel, 0, 32, untouched.write_device(device));
+  EXPECT_THAT(untouched.host(), testing::ElementsAre(7)) << "an empty range runs nothing";
+}
+
+TEST(Device, ARejectedArgumentOrLaunchSaysWhich) {
+  Device device;
+  auto kernel = device.kernel(kScale, "scale");
+  const Array<float> values(std::vector<float>(4, 1));
+  const auto wrong_argument =
+      device_error([&] { device.run("scale", kernel, 4, 0, cl_int{4}, double{2}, values.device(device)); });
+  EXPECT_THAT(wrong_argument, testing::HasSubstr("argument 1 of scale"));
+  const auto too_large_a_group = device_error(
+      [&] { device.run("scale", kernel, 1, std::size_t{1} << 40, cl_int{4}, 2.0F, values.device(device)); });
+  EXPECT_THAT(too_large_a_group, testing::HasSubstr("running kernel scale"));
+}
+
+TEST(Device, MeasuresStagesOnlyWhenAsked) {
+  Device device;
+  auto kernel = device.kernel(kScale, "scale");
+  Array<float> values(std::vector<float>(1 << 20, 1));
+  const auto run = [&](const char* stage) {
+    device.run(stage, kernel, values.size(), 64, static_cast<cl_int>(values.size()), 1.5F,
+               values.write_device(device));
+  };
+  run("unmeasured");
+  EXPECT_TRUE(device.take_stage_times().empty());
+
+  device.measure_stages(true);
+  run("first");
+  const double once = device.take_stage_times().at("first");
+  EXPECT_GT(once, 0);
+  for (int i = 0; i < 50; ++i) run("many");
+  run("other");
+  const auto times = device.take_stage_times();
+  EXPECT_EQ(times.size(), 2U) << "what was taken before is gone";
+  EXPECT_GT(times.at("many"), times.at("other")) << "fifty launches add up";
+  device.measure_stages(false);
+  run("unmeasured");
+  EXPECT_TRUE(device.take_stage_times().empty());
+}
+
+TEST(Device, AnAllocationThatDoesNotFitNamesItsSize) {
+  Device device;
+  const std::size_t bytes = std::size_t{1} << 50;
+  const auto message = device_error([&] { device.allocate(bytes); });
+  EXPECT_THAT(message, testing::HasSubstr("1125899906842624 bytes"));
+  EXPECT_THAT(message, testing::HasSubstr(device.info().name));
+}
+
+TEST(Device, TransfersBeyondABufferAreRefused) {
+  Device device;
+  const auto buffer = device.allocate(16);
+  std::vector<char> bytes(64);
+  EXPECT_THAT(device_error([&] { device.write(buffer, bytes.data(), 64); }),
+              testing::HasSubstr("writing 64 bytes"));
+  EXPECT_THAT(device_error([&] { device.read(buffer, bytes.data(), 64); }),
+              testing::HasSubstr("reading 64 bytes"));
+  EXPECT_THAT(device_error([&] { device.fill_zero(buffer, 64); }), testing::HasSubstr("clearing 64 bytes"));
+}
+
+TEST(Device, ClearsBuffers) {
+  Device device;
+  Array<float> values(std::vector<float>{1, 2, 3});
+  device.fill_zero(values.write_device(device), 2 * sizeof(float));
+  EXPECT_THAT(values.host(), testing::ElementsAre(0, 0, 3));
+}
+
+}  // namespace
+}  // namespace pliant
