@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,13 @@ class Array {
       host_is_current_ = true;
     }
     return host_;
+  }
+  /// Copies the values to `to`, without keeping them on the host.
+  void copy_to(T* to) const {
+    if (host_is_current_ || device_ == nullptr)
+      std::copy(host().begin(), host().end(), to);
+    else
+      device_->read(buffer_, to, bytes());
   }
   /// For changing values on the host (not their number); the device's copy becomes stale.
   std::vector<T>& write_host() {
