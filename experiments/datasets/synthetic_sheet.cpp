@@ -3,48 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
 
 #include "experiments/datasets/kinect_noise.h"
+#include "experiments/datasets/texture.h"
+#include "experiments/datasets/virtual_camera.h"
 #include "framework/core/error.h"
 
 namespace pliant {
 namespace {
-
-/// A fixed random number in [0, 1) for each corner of a grid (the mixing steps of splitmix64).
-double corner_value(std::int64_t i, std::int64_t j, std::uint64_t layer) {
-  std::uint64_t bits = static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15u +
-                       static_cast<std::uint64_t>(j) * 0xc2b2ae3d27d4eb4fu + layer * 0x165667b19e3779f9u;
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-  bits ^= bits >> 31;
-  return static_cast<double>(bits >> 11) * 0x1p-53;
-}
-
-/// Value noise: smooth between the corners of a grid of `cell` mm.
-double value_noise(double s, double t, double cell, std::uint64_t layer) {
-  const double i = std::floor(s / cell);
-  const double j = std::floor(t / cell);
-  const auto smooth = [](double r) { return r * r * (3 - 2 * r); };
-  const double right = smooth(s / cell - i);
-  const double down = smooth(t / cell - j);
-  const auto corner = [&](int di, int dj) {
-    return corner_value(static_cast<std::int64_t>(i) + di, static_cast<std::int64_t>(j) + dj, layer);
-  };
-  return std::lerp(std::lerp(corner(0, 0), corner(1, 0), right), std::lerp(corner(0, 1), corner(1, 1), right),
-                   down);
-}
-
-std::uint8_t channel_value(double s, double t, std::uint64_t channel) {
-  constexpr std::array<double, 3> kCells = {40, 16, 7};  // mm; the finest is several pixels wide
-  double sum = 0;
-  for (std::size_t i = 0; i < kCells.size(); ++i) sum += value_noise(s, t, kCells[i], 3 * i + channel);
-  return static_cast<std::uint8_t>(std::lround(sum / kCells.size() * 255));
-}
 
 Eigen::Vector2d ray(const Camera& camera, int u, int v) { return camera.unproject(u, v, 1).head<2>(); }
 
@@ -57,7 +27,7 @@ RgbdFrame render(const Camera& camera, See see, Place place) {
       const Eigen::Vector2d slope = ray(camera, u, v);
       if (const auto st = see(slope.x(), slope.y())) {
         frame.depth(u, v) = static_cast<float>(place(st->x(), st->y()).z());
-        frame.color(u, v) = BendingSheet::color(st->x(), st->y());
+        frame.color(u, v) = texture_color({st->x(), st->y(), 0});
       }
     }
   }
@@ -150,10 +120,6 @@ std::optional<double> BendingSheet::solve(double a) const {
   return s;
 }
 
-Rgb BendingSheet::color(double s, double t) {
-  return {channel_value(s, t, 0), channel_value(s, t, 1), channel_value(s, t, 2)};
-}
-
 FramePair SyntheticSheet::load(std::uint64_t seed) const {
   FramePair pair;
   pair.name = "synthetic sheet";
@@ -178,7 +144,7 @@ void register_synthetic_sheet(Registry& registry) {
   registry.add<DataSource>(
       "synthetic_sheet",
       "A flat sheet that bends without stretching, with its true motion [thesis data set I]",
-      {
+      with_camera({
           real("amplitude", shape.amplitude).unit("mm").at_least(0).doc("height of the wave over its middle"),
           real("frequency", shape.frequency).above(0).doc("waves over the width of the sheet"),
           real("approach", shape.approach)
@@ -188,26 +154,12 @@ void register_synthetic_sheet(Registry& registry) {
           real("sheet_width", shape.width).unit("mm").above(0).doc("size of the sheet in x, where it bends"),
           real("sheet_height", shape.height).unit("mm").above(0).doc("size of the sheet in y"),
           real("distance", shape.distance).unit("mm").above(0).doc("of the flat sheet from the camera"),
-          integer("image_width", 640).unit("pixel").range(1, 8192).doc("columns of the images"),
-          integer("image_height", 480).unit("pixel").range(1, 8192).doc("rows of the images"),
-          real("focal_length", 525).unit("pixel").above(0).doc("focal length in x and y"),
-          real("cx").unit("pixel").optional().doc("principal point in x; the middle of the image by default"),
-          real("cy").unit("pixel").optional().doc("principal point in y; the middle of the image by default"),
-      },
+      }),
       [](const Parameters& parameters, const Registry&) -> std::unique_ptr<DataSource> {
-        const auto width = static_cast<int>(parameters.integer("image_width"));
-        const auto height = static_cast<int>(parameters.integer("image_height"));
-        const double focal_length = parameters.real("focal_length");
-        const Camera camera{focal_length,
-                            focal_length,
-                            parameters.has("cx") ? parameters.real("cx") : (width - 1) / 2.0,
-                            parameters.has("cy") ? parameters.real("cy") : (height - 1) / 2.0,
-                            width,
-                            height};
         const BendingSheet sheet({parameters.real("sheet_width"), parameters.real("sheet_height"),
                                   parameters.real("distance"), parameters.real("amplitude"),
                                   parameters.real("frequency"), parameters.real("approach")});
-        return std::make_unique<SyntheticSheet>(sheet, camera, parameters.real("noise"));
+        return std::make_unique<SyntheticSheet>(sheet, virtual_camera(parameters), parameters.real("noise"));
       });
 }
 

@@ -38,9 +38,6 @@ class BendingSheet {
   std::optional<Eigen::Vector2d> see_flat(double a, double b) const;
   std::optional<Eigen::Vector2d> see_bent(double a, double b) const;
 
-  /// Colour of the material: smooth random noise of several scales, the same for every sheet.
-  static Rgb color(double s, double t);
-
  private:
   void check() const;
   double x(double s) const;
@@ -54,8 +51,9 @@ class BendingSheet {
 };
 
 /// The sheet, flat as the source and bent as the target [thesis data set I], seen by a pinhole camera with
-/// no background. Without noise the depth of every pixel is exact (not rounded to whole millimetres); the
-/// scene flow is the exact motion of the material seen at each source pixel, also under noise.
+/// no background, its material coloured by the texture at (s, t, 0). Without noise the depth of every pixel
+/// is exact (not rounded to whole millimetres); the scene flow is the exact motion of the material seen at
+/// each source pixel, also under noise.
 class SyntheticSheet : public DataSource {
  public:
   /// `noise`: strength of the KinectNoise on both depth images.

@@ -50,9 +50,11 @@ class Array {
   }
 
   const cl::Buffer& device(Device& device) const {
-    attach(device);
-    if (!device_is_current_) {
-      if (host_is_current_) device.write(buffer_, host_.data(), bytes());
+    if (device_ != nullptr && device_ != &device) host();  // devices exchange through the host
+    if (device_ != &device || !device_is_current_) {
+      // A fresh buffer rather than a write into the old one, which would wait for the device.
+      buffer_ = host_is_current_ ? device.upload(host_.data(), bytes()) : device.allocate(bytes());
+      device_ = &device;
       device_is_current_ = true;
     }
     return buffer_;
@@ -66,13 +68,6 @@ class Array {
 
  private:
   std::size_t bytes() const { return size_ * sizeof(T); }
-  void attach(Device& device) const {
-    if (device_ == &device) return;
-    if (device_ != nullptr) host();  // moving from one device to another goes through the host
-    buffer_ = device.allocate(bytes());
-    device_ = &device;
-    device_is_current_ = false;
-  }
 
   mutable std::vector<T> host_;
   std::size_t size_ = 0;

@@ -185,7 +185,7 @@ class Registration {
   const Method& method_;
   Device& device_;
   Scene scene_;
-  std::unique_ptr<PointSelection> nodes_;
+  std::unique_ptr<NodeSelection> nodes_;
   std::unique_ptr<PointSelection> samples_;
   Model model_;
   PointSet moved_;
@@ -213,6 +213,7 @@ RegistrationResult Registration::take_result() {
   result.points = unflatten(moved_.points);
   result.normals = unflatten(moved_.normals);
   result.node_positions = pick(scene_.aligned.points, model_.nodes);
+  result.graph_cells = nodes_->cells();
   result.counts.source_points = static_cast<int>(scene_.source.size());
   result.counts.nodes = model_.problem->node_count();
   result.counts.edges = static_cast<int>(model_.problem->graph().edges.size());

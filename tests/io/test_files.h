@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -50,6 +51,14 @@ class TestFiles : public ::testing::Test {
  private:
   std::filesystem::path folder_;
 };
+
+/// A file of the real data that tests use where it is there; "" where it is not.
+inline std::string real_data(const std::string& name) {
+  const char* folder = std::getenv("PLIANT_DATA");
+  if (folder == nullptr) return "";
+  const auto path = std::filesystem::path(folder) / name;
+  return std::filesystem::exists(path) ? path.string() : "";
+}
 
 /// The message of the DataError that `action` throws, "" when it throws none. It must be one line.
 template <class Action>
