@@ -236,8 +236,9 @@ kernel void pick(int count, global const int* pixels, global const float* points
                  global float* picked_normals) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  const float4 p = (float4)(vload3(pixels[i], points), 1);
-  const float4 n = (float4)(vload3(pixels[i], normals), 0);
-  vstore3((float3)(dot(row_x, p), dot(row_y, p), dot(row_z, p)), i, picked_points);
-  vstore3((float3)(dot(row_x, n), dot(row_y, n), dot(row_z, n)), i, picked_normals);
+  const float3 p = vload3(pixels[i], points);
+  const float3 n = vload3(pixels[i], normals);
+  const float3 turned = (float3)(dot(row_x.xyz, p), dot(row_y.xyz, p), dot(row_z.xyz, p));
+  vstore3(turned + (float3)(row_x.w, row_y.w, row_z.w), i, picked_points);
+  vstore3((float3)(dot(row_x.xyz, n), dot(row_y.xyz, n), dot(row_z.xyz, n)), i, picked_normals);
 }
