@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "framework/core/registry.h"
 
@@ -65,7 +66,25 @@ struct Equation {
         &NAME##_residual < ::pliant::Equation::Jet>, &NAME##_row < double> \
   }
 
-/// One term of E_tot [Eq. 4.6]: weight * sum over instances of |r|^2.
+/// Where the constraints of a per_constraint energy come from.
+enum class ConstraintSource {
+  surface,   ///< sampled points, matched anew in every outer iteration
+  features,  ///< the colour features that the initial alignment matched
+};
+
+/// How a squared residual s counts (loss.h).
+struct Loss {
+  std::string name = "none";  ///< one of loss_names()
+  double scale = 10;          ///< unit of the residual
+
+  bool is_robust() const { return name != "none"; }
+  double value(double s) const;      ///< rho(s)
+  double weight(double s) const;     ///< rho'(s)
+  double curvature(double s) const;  ///< rho''(s)
+};
+const std::vector<std::string>& loss_names();
+
+/// One term of E_tot [Eq. 4.6]: weight * sum over instances of rho(|r|^2).
 struct Energy {
   static constexpr const char* kind = "energy";
 
@@ -74,9 +93,11 @@ struct Energy {
   bool in_length = false;  ///< r is a length (mm), so its weight changes with the unit of length
   Equation equation;
   double weight = 1;
+  ConstraintSource source = ConstraintSource::surface;  ///< of a per_constraint energy
+  Loss loss = {};                                       ///< of a per_constraint energy
 };
 
-/// Registers an energy whose only parameter is its weight.
+/// Registers an energy whose parameters are its weight and, for a per_constraint one, its loss.
 /// Throws std::logic_error for more residuals than max_residuals.
 void add_energy(Registry& registry, const std::string& name, const std::string& doc, const Energy& energy);
 

@@ -1,7 +1,11 @@
 #include "framework/problem/equation_source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
+
+#include "framework/problem/loss.h.embed.h"
 
 namespace pliant {
 namespace {
@@ -23,6 +27,13 @@ std::string without_preprocessor_includes(std::string_view source) {
 std::string equation_source(const Energy& energy, const std::string& real) {
   return "#undef PLIANT_EQUATION\n#define PLIANT_EQUATION static inline\n#undef Real\n#define Real " + real +
          "\n" + without_preprocessor_includes(energy.equation.source);
+}
+
+std::string loss_source(const Loss& loss) {
+  return fmt::format(
+      "#undef PLIANT_EQUATION\n#define PLIANT_EQUATION static inline\n#undef Real\n#define Real float\n{0}\n"
+      "#define LOSS_VALUE(s) {1}_value(s, {2:.9e}f)\n#define LOSS_WEIGHT(s) {1}_weight(s, {2:.9e}f)\n",
+      without_preprocessor_includes(embedded::framework_problem_loss_h), loss.name, loss.scale);
 }
 
 }  // namespace pliant

@@ -10,4 +10,7 @@ namespace pliant {
 /// instances at once).
 std::string equation_source(const Energy& energy, const std::string& real);
 
+/// The functions of loss.h as OpenCL C, and LOSS_VALUE(s), LOSS_WEIGHT(s) for one of them.
+std::string loss_source(const Loss& loss);
+
 }  // namespace pliant

@@ -3,7 +3,7 @@
 // energy, ROWS is the length of its residual.
 //
 // evaluate_*: residual and Jacobian, scaled by the root of weight * confidence.
-// energy_*: the sum of weight * |r|^2 over CHUNK instances per work-item, in order: no atomics.
+// energy_*: the sum of weight * rho(|r|^2) over CHUNK instances per work-item, in order: no atomics.
 
 #ifndef PLIANT_EVALUATE_COMMON
 #define PLIANT_EVALUATE_COMMON
@@ -125,8 +125,7 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
   const int i = get_global_id(0);
   if (status[0] || i >= count) return;
   global float* out = normal + 9 * i;
-  const float factor = weight * confidence[i];
-  if (factor <= 0) {  // not in force: what stands in data may be anything
+  if (!(weight * confidence[i] > 0)) {  // not in force: what stands in data may be anything
     for (int entry = 0; entry < 9; ++entry) out[entry] = 0;
     return;
   }
@@ -135,6 +134,7 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
   for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
   NAME_RESIDUAL(u, given, r);
   NAME_JACOBIAN(u, given, J);
+  const float factor = weight * confidence[i] * LOSS_WEIGHT(squared(r, ROWS));
   for (int a = 0; a < 3; ++a) {
     float sum = 0;
     for (int row = 0; row < ROWS; ++row) sum += J[3 * row + a] * r[row];
@@ -162,7 +162,7 @@ kernel void KERNEL(energy)(global const int* status, int count, float weight, gl
     displacement(u, i, per_point, points, nodes, weights, node_points, affine);
     for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
     NAME_RESIDUAL(u, given, r);
-    sum += confidence[i] * squared(r, ROWS);
+    sum += confidence[i] * LOSS_VALUE(squared(r, ROWS));
   }
   partials[first_partial + get_global_id(0)] = weight * sum;
 }

@@ -65,11 +65,11 @@ const char* stencil_macro(Stencil stencil) {
 
 std::string evaluation_source(const Energy& energy) {
   return fmt::format(
-      "{0}\n#define {2}\n#define ROWS {3}\n"
+      "{0}\n{5}\n#define {2}\n#define ROWS {3}\n"
       "#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define KERNEL(x) "
       "x##_{1}\n{4}",
       equation_source(energy, "float"), energy.equation.name, stencil_macro(energy.stencil), energy.residuals,
-      embedded::framework_problem_evaluate_cl);
+      embedded::framework_problem_evaluate_cl, loss_source(energy.loss));
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ double Problem::energy(const std::vector<double>& unknowns) const {
       gather_instance(*this, term, i, unknowns.data(), u.data(), data.data());
       term.energy.equation.residual(u.data(), data.data(), r.data());
       const double confidence = term.constraints ? term.constraints->confidence.host()[i] : 1.0;
-      if (confidence > 0) sum += confidence * squared_norm(r, term.energy.residuals);
+      if (confidence > 0) sum += confidence * term.energy.loss.value(squared_norm(r, term.energy.residuals));
     }
     total += effective_weight(term) * sum;
   }

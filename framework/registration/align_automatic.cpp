@@ -34,19 +34,24 @@ class AutomaticAlignment : public Alignment {
 
   AlignmentResult align(const FramePair& pair, std::uint64_t seed) const override {
     if (pair.source.color.empty() || pair.target.color.empty()) return {};
-    PointMatches matches;
     try {
-      matches = match_features(pair, options_.ratio);
+      return nearer(pair, align_by_features(pair, options_, seed));
     } catch (const DataError&) {
       return {};  // too little texture to align by
     }
-    const AlignmentResult found = fit_rigid_ransac(matches, options_.ransac, seed);
-    const bool is_nearer =
-        cut_residual(pair, found.motion) < cut_residual(pair, Eigen::Isometry3d::Identity());
-    return found.inliers >= options_.min_inliers && is_nearer ? found : AlignmentResult{};
   }
 
  private:
+  /// `found`, or no motion with the features that suit it where that lies nearer.
+  AlignmentResult nearer(const FramePair& pair, AlignmentResult found) const {
+    const auto stay = Eigen::Isometry3d::Identity();
+    const bool is_trusted = found.inliers >= options_.min_inliers;
+    if (is_trusted && cut_residual(pair, found.motion) < cut_residual(pair, stay)) return found;
+    found.motion = stay;
+    if (!is_trusted) found.features = {};
+    return found;
+  }
+
   FeatureOptions options_;
 };
 
@@ -69,8 +74,8 @@ void register_automatic_alignment(Registry& registry) {
   registry.add<Alignment>(
       "automatic",
       "As `features` where there is colour and that brings the source nearer to the target; else as `none`",
-      {}, [](const Parameters&, const Registry&) {
-        return std::make_unique<AutomaticAlignment>(FeatureOptions{});
+      ParameterTable(feature_rows()), [](const Parameters& parameters, const Registry&) {
+        return std::make_unique<AutomaticAlignment>(read_feature_options(parameters));
       });
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <flann/flann.hpp>
@@ -181,13 +182,33 @@ PointMatches match(Features& source, Features& target, double ratio) {
   return matches;
 }
 
+/// Whether at least half of the matches nearest to match `i`, among `others`, keep their distance to it.
+bool agrees_with_neighbours(const PointMatches& matches, const std::vector<std::size_t>& others,
+                            std::size_t i) {
+  constexpr std::size_t neighbours = 6;
+  const auto distance = [&](std::size_t j) { return (matches.from[i] - matches.from[j]).norm(); };
+  std::vector<std::size_t> nearest;
+  for (const std::size_t j : others)
+    if (j != i) nearest.push_back(j);
+  const std::size_t count = std::min(neighbours, nearest.size());
+  std::partial_sort(
+      nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count), nearest.end(),
+      [&](std::size_t a, std::size_t b) { return std::pair(distance(a), a) < std::pair(distance(b), b); });
+  std::size_t agreeing = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double before = distance(nearest[n]);
+    const double after = (matches.to[i] - matches.to[nearest[n]]).norm();
+    agreeing += std::abs(after - before) <= 5 + before / 4 ? 1 : 0;
+  }
+  return count > 0 && 2 * agreeing >= count;
+}
+
 class FeatureAlignment : public Alignment {
  public:
   explicit FeatureAlignment(const FeatureOptions& options) : options_(options) {}
 
   AlignmentResult align(const FramePair& pair, std::uint64_t seed) const override {
-    const PointMatches matches = match_features(pair, options_.ratio);
-    const AlignmentResult result = fit_rigid_ransac(matches, options_.ransac, seed);
+    AlignmentResult result = align_by_features(pair, options_, seed);
     if (result.inliers < options_.min_inliers) {
       throw DataError(
           fmt::format("{}: {} of {} feature matches agree on a rigid motion, alignment needs at least {}",
@@ -216,38 +237,69 @@ AlignmentResult fit_rigid_ransac(const PointMatches& matches, const RansacOption
   return result;
 }
 
+PointMatches keep_deformable(const PointMatches& matches, const Eigen::Isometry3d& motion,
+                             double max_deformation) {
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if ((motion * matches.from[i] - matches.to[i]).norm() < max_deformation) near.push_back(i);
+  PointMatches kept;
+  for (const std::size_t i : near) {
+    if (!agrees_with_neighbours(matches, near, i)) continue;
+    kept.from.push_back(matches.from[i]);
+    kept.to.push_back(matches.to[i]);
+  }
+  return kept;
+}
+
 PointMatches match_features(const FramePair& pair, double ratio) {
   Features source = find_features(pair.source, pair.camera, pair.name + ", source");
   Features target = find_features(pair.target, pair.camera, pair.name + ", target");
   return match(source, target, ratio);
 }
 
-void register_feature_alignment(Registry& registry) {
+AlignmentResult align_by_features(const FramePair& pair, const FeatureOptions& options, std::uint64_t seed) {
+  const PointMatches matches = match_features(pair, options.ratio);
+  AlignmentResult result = fit_rigid_ransac(matches, options.ransac, seed);
+  result.features = keep_deformable(matches, result.motion, options.max_deformation);
+  return result;
+}
+
+std::vector<Parameter> feature_rows() {
   const FeatureOptions defaults;
+  return {
+      real("ratio", defaults.ratio)
+          .range(0.1, 1)
+          .doc("Greatest ratio of a match's descriptor distance to that of the second best"),
+      integer("iterations", defaults.ransac.iterations).range(1, 1000000).doc("Triples that RANSAC tries"),
+      real("inlier_distance", defaults.ransac.inlier_distance)
+          .unit("mm")
+          .above(0)
+          .doc("A match agrees with a motion that brings its points nearer than this"),
+      integer("min_inliers", defaults.min_inliers)
+          .range(3, 100000)
+          .doc("With fewer agreeing matches there is no alignment"),
+      real("max_deformation", defaults.max_deformation)
+          .unit("mm")
+          .above(0)
+          .doc("Matches further than this from the rigid motion are no constraints of the energy `feature`"),
+  };
+}
+
+FeatureOptions read_feature_options(const Parameters& section) {
+  FeatureOptions options;
+  options.ratio = section.real("ratio");
+  options.min_inliers = static_cast<int>(section.integer("min_inliers"));
+  options.max_deformation = section.real("max_deformation");
+  options.ransac.iterations = static_cast<int>(section.integer("iterations"));
+  options.ransac.inlier_distance = section.real("inlier_distance");
+  return options;
+}
+
+void register_feature_alignment(Registry& registry) {
   registry.add<Alignment>(
       "features", "Rigid motion that most matches of colour features agree with [SIFT, FLANN, RANSAC]",
-      {
-          real("ratio", defaults.ratio)
-              .range(0.1, 1)
-              .doc("Greatest ratio of a match's descriptor distance to that of the second best"),
-          integer("iterations", defaults.ransac.iterations)
-              .range(1, 1000000)
-              .doc("Triples that RANSAC tries"),
-          real("inlier_distance", defaults.ransac.inlier_distance)
-              .unit("mm")
-              .above(0)
-              .doc("A match agrees with a motion that brings its points nearer than this"),
-          integer("min_inliers", defaults.min_inliers)
-              .range(3, 100000)
-              .doc("Fewer agreeing matches are an error"),
-      },
-      [](const Parameters& parameters, const Registry&) {
-        FeatureOptions options;
-        options.ratio = parameters.real("ratio");
-        options.min_inliers = static_cast<int>(parameters.integer("min_inliers"));
-        options.ransac.iterations = static_cast<int>(parameters.integer("iterations"));
-        options.ransac.inlier_distance = parameters.real("inlier_distance");
-        return std::make_unique<FeatureAlignment>(options);
+      ParameterTable(feature_rows()), [](const Parameters& parameters, const Registry&) {
+        return std::make_unique<FeatureAlignment>(read_feature_options(parameters));
       });
 }
 

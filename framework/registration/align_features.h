@@ -9,14 +9,6 @@
 
 namespace pliant {
 
-/// Points of the source (`from`) and of the target (`to`) that are believed to be the same, in mm.
-struct PointMatches {
-  std::vector<Eigen::Vector3d> from;
-  std::vector<Eigen::Vector3d> to;
-
-  std::size_t size() const { return from.size(); }
-};
-
 struct RansacOptions {
   int iterations = 10000;
   double inlier_distance = 30;  ///< mm
@@ -28,15 +20,30 @@ struct RansacOptions {
 AlignmentResult fit_rigid_ransac(const PointMatches& matches, const RansacOptions& options,
                                  std::uint64_t seed);
 
+/// The matches that a deformation may have made: after `motion` they lie nearer than `max_deformation` (mm),
+/// and at least half of the six matches nearest to each keep their distance to it to within a quarter (plus 5
+/// mm), because a surface bends far more easily than it stretches.
+PointMatches keep_deformable(const PointMatches& matches, const Eigen::Isometry3d& motion,
+                             double max_deformation);
+
 struct FeatureOptions {
   double ratio = 0.85;  ///< nearest over second nearest descriptor distance, at most
   int min_inliers = 8;
+  double max_deformation = 120;  ///< mm; a match further from the rigid motion is no feature of the surface
   RansacOptions ransac;
 };
 
 /// Matches of colour features [SIFT, ratio test of Lowe 2004] that have depth and lie inside the masks.
 /// Throws DataError without colour or with fewer than two features in either frame.
 PointMatches match_features(const FramePair& pair, double ratio);
+
+/// Rigid motion by colour features, and the matches that go with it.
+/// Throws as match_features does.
+AlignmentResult align_by_features(const FramePair& pair, const FeatureOptions& options, std::uint64_t seed);
+
+/// The rows of `FeatureOptions` in an experiment file, and what they say.
+std::vector<Parameter> feature_rows();
+FeatureOptions read_feature_options(const Parameters& section);
 
 /// Adds the alignment `features`.
 void register_feature_alignment(Registry& registry);

@@ -49,10 +49,42 @@ std::shared_ptr<Constraints> make_constraints(Device& device, const Method& meth
   return constraints;
 }
 
-std::vector<Term> make_terms(const Method& method, const std::shared_ptr<Constraints>& constraints) {
+/// The features that the initial alignment found, as constraints whose targets stay.
+std::shared_ptr<Constraints> make_feature_constraints(Device& device, const Method& method,
+                                                      const Scene& scene,
+                                                      const std::vector<Eigen::Vector3f>& node_positions) {
+  const PointMatches& features = scene.alignment.features;
+  std::vector<Eigen::Vector3f> points;
+  std::vector<float> pulls;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const Eigen::Vector3d point = scene.alignment.motion * features.from[i];
+    points.push_back(point.cast<float>());
+    const Eigen::Vector3f pull = (features.to[i] - point).cast<float>();
+    pulls.insert(pulls.end(), {pull.x(), pull.y(), pull.z(), 0, 0, 0});
+  }
+  auto constraints = make_constraints(device, method, points, node_positions);
+  constraints->data = Array<float>(std::move(pulls));
+  constraints->confidence = Array<float>(std::vector<float>(points.size(), 1.0F));
+  return constraints;
+}
+
+bool uses_features(const Energy& energy) {
+  return energy.stencil == Stencil::per_constraint && energy.source == ConstraintSource::features;
+}
+
+std::vector<Term> make_terms(Device& device, const Method& method, const Scene& scene,
+                             const std::vector<Eigen::Vector3f>& node_positions,
+                             const std::shared_ptr<Constraints>& surface) {
+  std::shared_ptr<Constraints> features;
+  if (std::any_of(method.energies.begin(), method.energies.end(), uses_features))
+    features = make_feature_constraints(device, method, scene, node_positions);
   std::vector<Term> terms;
-  for (const Energy& energy : method.energies)
-    terms.push_back({energy, energy.stencil == Stencil::per_constraint ? constraints : nullptr});
+  for (const Energy& energy : method.energies) {
+    if (energy.stencil != Stencil::per_constraint)
+      terms.push_back({energy, nullptr});
+    else
+      terms.push_back({energy, uses_features(energy) ? features : surface});
+  }
   return terms;
 }
 
@@ -67,7 +99,8 @@ Model make_model(const Scene& scene, const Method& method, Device& device, const
   auto constraints =
       make_constraints(device, method, pick(scene.aligned.points, samples.points()), positions);
   auto problem = std::make_unique<Problem>(DeformationGraph{positions, std::move(edges)},
-                                           make_terms(method, constraints), method.length_unit);
+                                           make_terms(device, method, scene, positions, constraints),
+                                           method.length_unit);
   return {nodes.points(),         flatten(positions), std::move(influences), Array<int>(samples.points()),
           std::move(constraints), std::move(problem)};
 }

@@ -39,6 +39,8 @@ class InstanceCost : public ceres::CostFunction {
     }
   }
 
+  double factor() const { return scale_ * scale_; }
+
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     std::array<double, max_stencil_inputs> u{};
     gather(parameters, u.data());
@@ -84,6 +86,23 @@ class InstanceCost : public ceres::CostFunction {
   std::vector<double> arms_;  // per slot w (p - g), then w
 };
 
+/// The loss of an energy on residuals that carry the root of `factor` = weight * confidence.
+class ScaledLoss : public ceres::LossFunction {
+ public:
+  ScaledLoss(const Loss& loss, double factor) : loss_(loss), factor_(factor) {}
+
+  void Evaluate(double squared_norm, double* rho) const override {
+    const double s = squared_norm / factor_;
+    rho[0] = factor_ * loss_.value(s);
+    rho[1] = loss_.weight(s);
+    rho[2] = loss_.curvature(s) / factor_;
+  }
+
+ private:
+  const Loss& loss_;
+  double factor_;
+};
+
 struct Options {
   std::string linear_solver;
   int max_iterations;
@@ -123,8 +142,9 @@ class BoundCeres : public BoundSolver {
       const auto nodes = coupled_nodes(problem_, term, i);
       std::vector<double*> blocks;
       for (const int node : nodes) blocks.push_back(unknowns.data() + affine_size * node);
-      ceres_problem.AddResidualBlock(new InstanceCost(problem_, term, i, nodes, unknowns.data()), nullptr,
-                                     blocks);
+      auto* cost = new InstanceCost(problem_, term, i, nodes, unknowns.data());
+      auto* loss = term.energy.loss.is_robust() ? new ScaledLoss(term.energy.loss, cost->factor()) : nullptr;
+      ceres_problem.AddResidualBlock(cost, loss, blocks);
     }
   }
 
