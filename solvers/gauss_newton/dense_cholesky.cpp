@@ -101,13 +101,15 @@ class DenseCholesky : public LinearSolver {
  public:
   std::unique_ptr<Course> bind(Problem& problem, Device& device,
                                const CourseOptions& options) const override {
-    return make_stepwise_course(problem, device, options, "dense_cholesky", [](NormalEquations& equations) {
-      return std::make_unique<DenseCholeskySteps>(equations);
-    });
+    return make_stepwise_course(problem, device, options, "dense_cholesky", make_dense_cholesky_steps);
   }
 };
 
 }  // namespace
+
+std::unique_ptr<StepSolver> make_dense_cholesky_steps(NormalEquations& equations) {
+  return std::make_unique<DenseCholeskySteps>(equations);
+}
 
 void register_dense_cholesky(Registry& registry) {
   registry.add<LinearSolver>(

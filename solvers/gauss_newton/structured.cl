@@ -16,6 +16,7 @@
 #define CG_SPREAD 10
 #define CG_SHARE 0.1f
 #define LEAST_SHARE 0.1f
+#define ROUNDING 3.6e-15f  // the square of the relative rounding error of single precision
 #endif
 
 #if LANES == 1
@@ -38,6 +39,10 @@ float sum4(float4 v) { return (v.x + v.y) + (v.z + v.w); }
 #define KIND_ARGUMENTS(x)                                                                       \
   global const int *starts_##x, global const int *entries_##x, global const ushort *places_##x, \
       global const float4 *arms_##x, global const float4 *forces_##x
+#define FORCE_ARGUMENTS(x)                                                                    \
+  global const int *starts_##x, global const int *entries_##x, global const float4 *arms_##x, \
+      global float4 *forces_##x
+#define FORCES(x) starts_##x, entries_##x, arms_##x, forces_##x
 #define KIND(x) starts_##x, entries_##x, places_##x, arms_##x, forces_##x
 
 static inline void add_rows(int node, const int k, KIND_ARGUMENTS(), global float16* row, float16* diagonal,
@@ -190,10 +195,11 @@ typedef struct {
   global const int* rows;
   global const int* columns;
   global const float16* M;
-  global float16* D;         // diagonal blocks of what is solved: M + energies per node, damped
-  global float16* P;         // their factors
-  global float16* x;         // unknowns, in chunks, like all that follow
-  global float16* gradient;  // half the gradient of what separates
+  global float16* D;          // diagonal blocks of what is solved: M + energies per node, damped
+  global float16* P;          // their factors
+  global float16* x;          // unknowns, in chunks, like all that follow
+  global float16* summed_at;  // x where the gradient was last summed over the instances
+  global float16* gradient;   // half the gradient of what separates
   global float16* step;
   global float16* residual;  // of the linear system
   global float16* direction;
@@ -220,8 +226,10 @@ static inline void multiply_rows(const System* s, int chunk, int first, float16*
   for (int entry = 0; entry < 12; ++entry) result[entry] = m[entry];
 }
 
-// Builds D, its factors and the right-hand side of a chunk.
-static inline void prepare(const System* s, int chunk, float damping) {
+// Builds D, its factors and the right-hand side of a chunk. Returns what the preconditioner makes of the
+// rounding errors in that right-hand side, which come of energies of the size `mean` a node, and of the way
+// since the gradient was last summed: gains below are not to be believed.
+static inline float16 prepare(const System* s, int chunk, float damping, float mean) {
   float16 u[12], packed[78], force[12], m[16];
   for (int entry = 0; entry < 12; ++entry) u[COLUMNWISE(entry)] = s->x[12 * chunk + entry];
   for (int entry = 0; entry < 78; ++entry) packed[entry] = 0;
@@ -235,13 +243,27 @@ static inline void prepare(const System* s, int chunk, float damping) {
       for (int d = 0; d <= c; ++d) packed[AT(4 * axis + c, 4 * axis + d)] += m[4 * d + c];
   for (int entry = 0; entry < 12; ++entry) packed[AT(entry, entry)] *= 1 + damping;
   for (int entry = 0; entry < 78; ++entry) s->D[78 * chunk + entry] = packed[entry];
+  float16 errors[12], size = mean, noise = 0;
+  for (int entry = 0; entry < 12; ++entry) {
+    const float16 d = packed[AT(entry, entry)];
+    const float16 way = s->x[12 * chunk + entry] - s->summed_at[12 * chunk + entry];
+    size += d * way * way;
+    m[entry] = sqrt(d) * (float16)(1, 1, -1, 1, -1, -1, 1, -1, -1, 1, 1, 1, -1, 1, -1, -1) *
+               (entry % 3 == 1 ? -1 : 1);
+    errors[entry] = m[entry];
+  }
   factor(packed);
   for (int entry = 0; entry < 78; ++entry) s->P[78 * chunk + entry] = packed[entry];
-  for (int entry = 0; entry < 12; ++entry) s->residual[12 * chunk + entry] = -force[entry];
+  solve_packed(s->P + 78 * chunk, errors);
+  for (int entry = 0; entry < 12; ++entry) {
+    noise += m[entry] * errors[entry];
+    s->residual[12 * chunk + entry] = -force[entry];
+  }
+  return ROUNDING * size * noise;
 }
 
 // Solves for the step until a further iteration would lower the energy by less than `least`, or by less
-// than a share of what has been gained. Returns the number of iterations.
+// than a share of what has been gained. Returns the number of iterations, -1 when there is no solution.
 int conjugate_gradients(const System* s, float least, int most_iterations, local float* scratch) {
   float16 part = 0;
   FOR_EACH(chunk, s->chunks) {
@@ -259,6 +281,7 @@ int conjugate_gradients(const System* s, float least, int most_iterations, local
   float gained = 0;
   int iteration = 0;
   // rz bounds from below, within the spread of the preconditioned spectrum, what is left to gain
+  if (!isfinite(rz)) return -1;
   while (iteration < most_iterations && rz > least) {
     SYNC;
     part = 0;
@@ -273,7 +296,7 @@ int conjugate_gradients(const System* s, float least, int most_iterations, local
       }
     }
     const float curvature = total(part, scratch);
-    if (!(curvature > 0)) break;
+    if (!(curvature > 0)) return iteration > 0 ? iteration : -1;
     ++iteration;
     const float alpha = rz / curvature;
     const float gain = alpha * rz;
@@ -338,6 +361,72 @@ float try_step(const System* s, local float* scratch) {
   return total(part, scratch);
 }
 
+// Moves the forces of one kind of instances from `summed_at` to x; `by_node` holds the difference. Returns
+// their energy.
+static inline float move_forces(const System* s, const int k, int count, global const int* nodes,
+                                global const float4* arms, global float4* forces) {
+  float energy = 0;
+  FOR_EACH(instance, count) {
+    float4 x = 0, y = 0, z = 0;
+    for (int slot = k * instance; slot < k * (instance + 1); ++slot) {
+      global const float4* moved = (global const float4*)(s->by_node + nodes[slot]);
+      x += arms[slot] * moved[0];
+      y += arms[slot] * moved[1];
+      z += arms[slot] * moved[2];
+    }
+    float4 force = forces[instance];
+    force.xyz += force.w * (float3)(sum4(x), sum4(y), sum4(z));
+    forces[instance] = force;
+    if (force.w > 0) energy += (force.x * force.x + force.y * force.y + force.z * force.z) / force.w;
+  }
+  return energy;
+}
+
+static inline void add_forces(int node, const int k, FORCE_ARGUMENTS(), float4* gradient) {
+  for (int e = starts_[node]; e < starts_[node + 1]; ++e) {
+    const int instance = entries_[e] / SLOTS;
+    const float4 arm = arms_[instance * k + entries_[e] % SLOTS];
+    const float4 force = forces_[instance];
+    gradient[0] += force.x * arm;
+    gradient[1] += force.y * arm;
+    gradient[2] += force.z * arm;
+  }
+}
+
+// Sums the gradient anew over the instances: updated by M times step after step it gathers rounding errors
+// which the worse conditioned a problem is the more weigh. Returns the energy of the instances.
+float sum_gradient(const System* s, int edge_count, global const int* edge_nodes, FORCE_ARGUMENTS(edges),
+                   int constraint_count, global const int* constraint_nodes, FORCE_ARGUMENTS(constraints),
+                   local float* scratch) {
+  FOR_EACH(chunk, s->chunks) {
+    float16 way[12];
+    for (int entry = 0; entry < 12; ++entry) {
+      const int at = 12 * chunk + entry;
+      way[entry] = s->x[at] - s->summed_at[at];
+      s->summed_at[at] = s->x[at];
+    }
+    store_rows(way, chunk, s->by_node);
+  }
+  SYNC;
+  const float16 part =
+      (float16)(move_forces(s, 2, edge_count, edge_nodes, arms_edges, forces_edges),
+                move_forces(s, K, constraint_count, constraint_nodes, arms_constraints, forces_constraints),
+                0, 0, (float4)(0), (float8)(0));
+  SYNC;
+  FOR_EACH(chunk, s->chunks) {
+    float16 m[16];
+    for (int n = 0; n < 16; ++n) {
+      float4 sum[3] = {0, 0, 0};
+      add_forces(16 * chunk + n, 2, FORCES(edges), sum);
+      add_forces(16 * chunk + n, K, FORCES(constraints), sum);
+      m[n] = (float16)(sum[0], sum[1], sum[2], (float4)(0));
+    }
+    transpose(m);
+    for (int entry = 0; entry < 12; ++entry) s->gradient[12 * chunk + entry] = m[entry];
+  }
+  return total(part, scratch);
+}
+
 float energy_per_node(const System* s, local float* scratch) {
   float16 part = 0;
   FOR_EACH(chunk, s->chunks) {
@@ -366,11 +455,14 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
     global int* status, int node_count, int chunks, int max_iterations, float tolerance, float least_damping,
     global const float* node_weights, global const int* rows, global const int* columns,
     global const float16* M, global float16* D, global float16* P, global float16* vectors,
-    global const float4* gradient, int partial_count, global float* partials, global float* unknowns) {
+    global const float4* gradient, int edge_count, global const int* edge_nodes, FORCE_ARGUMENTS(edges),
+    int constraint_count, global const int* constraint_nodes, FORCE_ARGUMENTS(constraints), int partial_count,
+    global float* partials, global float* unknowns) {
   local float scratch[LANES];
   const int length = 12 * chunks;
   System s = {node_count, chunks, node_weights, rows, columns, M, D, P, vectors};
-  s.gradient = s.x + length;
+  s.summed_at = s.x + length;
+  s.gradient = s.summed_at + length;
   s.step = s.gradient + length;
   s.residual = s.step + length;
   s.direction = s.residual + length;
@@ -389,45 +481,56 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
     transpose(m);
     transpose(g);
     for (int entry = 0; entry < 12; ++entry) {
-      s.x[12 * chunk + entry] = m[COLUMNWISE(entry)];
+      s.x[12 * chunk + entry] = s.summed_at[12 * chunk + entry] = m[COLUMNWISE(entry)];
       s.gradient[12 * chunk + entry] = g[entry];
     }
   }
   float damping = least_damping;
   float energy = ordered_sum(partials, partial_count) + energy_per_node(&s, scratch);
-  const float negligible = 1e-6f * energy;  // of the start: digits that single precision does not have
   const float initial = energy;
-  int iteration = 0, linear_iterations = 0;
+  const float negligible = 1e-9f * initial;
+  float summed_energy = energy;  // where the gradient was last summed
+  int iteration = 0, linear_iterations = 0, fresh = 1;
   int termination = isfinite(energy) ? 0 : 4;
   while (termination == 0) {
-    FOR_EACH(chunk, chunks) prepare(&s, chunk, damping);
-    const float least = tolerance * max(energy, negligible);
-    const int used = conjugate_gradients(&s, LEAST_SHARE * least, 12 * node_count + 1, scratch);
-    linear_iterations += used;
-    if (used == 0) {  // nothing left to gain
-      termination = 1;
-      break;
-    }
-    const float change = try_step(&s, scratch);
-    const int accepted = change <= 0;  // false for NaN
-    if (accepted) {
-      energy += change;
-      damping = fmax(damping * 0.1f, least_damping);
-      FOR_EACH(chunk, chunks) for (int at = 12 * chunk; at < 12 * (chunk + 1); ++at) {
-        s.x[at] += s.step[at];
-        s.gradient[at] += s.product[at];
+    float16 part = 0;
+    FOR_EACH(chunk, chunks) part += prepare(&s, chunk, damping, 4 * summed_energy / node_count);
+    const float noise = total(part, scratch);
+    const float wanted = tolerance * fmax(energy, negligible);
+    const float settled = fmax(wanted, noise);
+    const int used = conjugate_gradients(&s, fmax(LEAST_SHARE * wanted, noise), 12 * node_count + 1, scratch);
+    linear_iterations += max(used, 0);
+    float change = used == 0 ? 0.0f : INFINITY;
+    if (used > 0) change = try_step(&s, scratch);
+    if (used != 0) {
+      const int accepted = change <= 0;  // false for NaN
+      if (accepted) {
+        energy += change;
+        damping = fmax(damping * 0.1f, least_damping);
+        FOR_EACH(chunk, chunks) for (int at = 12 * chunk; at < 12 * (chunk + 1); ++at) {
+          s.x[at] += s.step[at];
+          s.gradient[at] += s.product[at];
+        }
+      } else {
+        damping = fmax(damping, 1e-6f) * 10;
       }
-    } else {
-      damping = fmax(damping, 1e-6f) * 10;
+      if (get_local_id(0) == 0) status[16 + iteration] = as_int(accepted ? change : 0.0f);
+      ++iteration;
     }
-    if (get_local_id(0) == 0) status[16 + iteration] = as_int(accepted ? change : 0.0f);
-    ++iteration;
-    if (fabs(change) <= least)
+    if (fabs(change) <= settled && (fresh || noise <= wanted))
       termination = 1;
     else if (iteration >= max_iterations)
       termination = 2;
     else if (damping > 1e6f)
       termination = 3;
+    fresh = 0;
+    if (termination == 0 && fabs(change) <= settled) {
+      energy = sum_gradient(&s, edge_count, edge_nodes, FORCES(edges), constraint_count, constraint_nodes,
+                            FORCES(constraints), scratch) +
+               energy_per_node(&s, scratch);
+      summed_energy = energy;
+      fresh = 1;
+    }
   }
   FOR_EACH(chunk, chunks) {
     float16 m[16];

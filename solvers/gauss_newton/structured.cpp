@@ -117,8 +117,10 @@ class StructuredCourse : public Course {
                 matrix_, gradient_);
     device_.run("solver", solve_, local_, local_, status, node_count_, padded_ / lanes,
                 options_.max_iterations, options_.tolerance, options_.damping, node_weights_, rows_, columns_,
-                matrix_, diagonal_, preconditioner_, vectors_, gradient_, partial_count_, partials_,
-                problem_.unknowns().write_device(device_));
+                matrix_, diagonal_, preconditioner_, vectors_, gradient_, count_of(edges_), edges_.nodes,
+                edges_.starts, edges_.entries, edges_.arms, edges_.forces, count_of(constraints_),
+                constraints_.nodes, constraints_.starts, constraints_.entries, constraints_.arms,
+                constraints_.forces, partial_count_, partials_, problem_.unknowns().write_device(device_));
     evaluate("energy", status);
     device_.run("energy", conclude_, 1, 1, status, partial_count_ + 1, partials_);
   }
@@ -126,6 +128,8 @@ class StructuredCourse : public Course {
   std::string description() const override { return "structured"; }
 
  private:
+  static cl_int count_of(const Kind& kind) { return static_cast<cl_int>(kind.incidences.size()); }
+
   void collect_terms() {
     const int edge_count = static_cast<int>(problem_.graph().edges.size());
     int constraint_count = 0;
@@ -200,7 +204,7 @@ class StructuredCourse : public Course {
     diagonal_ = device_.allocate(number * 78 * nodes);
     preconditioner_ = device_.allocate(number * 78 * nodes);
     gradient_ = device_.allocate(number * 12 * nodes);
-    vectors_ = device_.allocate(number * (6 * 12 + 16) * nodes);  // six in chunks, one node by node
+    vectors_ = device_.allocate(number * (7 * 12 + 16) * nodes);  // seven in chunks, one node by node
     partials_ = device_.allocate(number * static_cast<std::size_t>(partial_count_ + 1));
   }
 

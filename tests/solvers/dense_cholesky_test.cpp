@@ -4,7 +4,8 @@
 #include <random>
 
 #include "framework/deformation/warp.h"
-#include "solvers/gauss_newton/linear_solver.h"
+#include "solvers/gauss_newton/dense_cholesky.h"
+#include "solvers/gauss_newton/stepwise.h"
 #include "tests/problem/components.h"
 #include "tests/problem/dense_normals.h"
 #include "tests/solvers/solve.h"
@@ -50,9 +51,7 @@ class DenseCholesky : public SolverTest {
     bool bad_pivot;
   };
   Solution solve_system(NormalEquations& equations, float damping = 0) {
-    const auto solver = make<LinearSolver>(registry_, "{type: dense_cholesky}");
-    EXPECT_EQ(solver->name(), "dense_cholesky");
-    const auto bound = solver->bind(equations);
+    const auto bound = make_dense_cholesky_steps(equations);
     const auto status = make_status(device_);
     std::vector<cl_int> words(16);
     words[status_damping] = std::bit_cast<cl_int>(damping);
