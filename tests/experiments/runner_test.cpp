@@ -7,6 +7,7 @@
 #include <set>
 
 #include "experiments/runner/result_json.h"
+#include "framework/geometry/depth_filter.h"
 #include "tests/experiments/experiment_files.h"
 
 namespace pliant::testing {
@@ -73,6 +74,30 @@ TEST_F(RunnerTest, ResultSaysWhatTheRegistrationCameTo) {
   EXPECT_EQ(entry["energy"]["per_iteration"].size(), entry["counts"]["outer_iterations"]);
   EXPECT_LT(entry["metrics"]["epe_mean"], 0.5 * entry["initial"]["epe_mean"].get<double>());
   EXPECT_EQ(entry["solver"]["name"], "gauss_newton");
+}
+
+/// Sees everything 3 mm further away than it is.
+class Shifted : public DepthFilter {
+ public:
+  std::optional<DepthMap> filter(Device&, const DepthMap& map) const override {
+    DepthMap shifted = map;
+    for (float& depth : shifted.depth.write_host()) depth += depth < DepthMap::no_depth ? 3.0F : 0.0F;
+    return shifted;
+  }
+};
+
+TEST_F(RunnerTest, AFilterServesTheRegistrationAndLeavesThePointsAsGiven) {
+  registry_.add<DepthFilter>("shifted", "3 mm further away", {},
+                             [](const Parameters&, const Registry&) { return std::make_unique<Shifted>(); });
+  const ordered_json raw = run(plan(""), "raw")["runs"][0];
+  const Surface source = records_.at(0).result.source;
+  const ordered_json filtered = run(plan("filter: shifted"), "filtered")["runs"][0];
+  const RegistrationResult& result = records_.at(0).result;
+  EXPECT_EQ(result.source.points, source.points);
+  EXPECT_EQ(result.aligned_points, source.points);
+  EXPECT_NE(result.node_positions.front().z(), source.points.front().z()) << "the graph is on what was seen";
+  EXPECT_LT(filtered["metrics"]["residual_mean"], raw["metrics"]["residual_mean"].get<double>() + 0.5)
+      << "the deformation goes for the given points, which meet the given target, not the shifted one";
 }
 
 TEST_F(RunnerTest, TwoRunsGiveTheSameBits) {

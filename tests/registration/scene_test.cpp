@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "framework/core/error.h"
@@ -17,8 +18,8 @@ class QuarterTurn : public Alignment {
  public:
   AlignmentResult align(const FramePair&, std::uint64_t) const override {
     AlignmentResult result;
-    result.motion = Eigen::Translation3d(1, 2, 3) *
-                    Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
+    result.motion =
+        Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
     return result;
   }
 };
