@@ -2,8 +2,10 @@
 
 #include "framework/core/registry.h"
 #include "solvers/ceres_lm/ceres_lm.h"
+#include "solvers/gauss_newton/automatic.h"
 #include "solvers/gauss_newton/dense_cholesky.h"
 #include "solvers/gauss_newton/gauss_newton.h"
+#include "solvers/gauss_newton/structured.h"
 
 namespace pliant {
 
@@ -11,6 +13,8 @@ namespace pliant {
 inline void register_solvers(Registry& registry) {
   register_gauss_newton(registry);
   register_ceres_lm(registry);
+  register_automatic(registry);
+  register_structured(registry);
   register_dense_cholesky(registry);
 }
 

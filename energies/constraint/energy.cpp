@@ -10,7 +10,7 @@ void register_constraint(Registry& registry) {
              {.stencil = Stencil::per_constraint,
               .residuals = 3,
               .in_length = true,
-              .equation = PLIANT_MAKE_EQUATION(constraint, embedded::energies_constraint_equation_h),
+              .equation = PLIANT_MAKE_SEPARABLE_EQUATION(constraint, embedded::energies_constraint_equation_h),
               .weight = 100});
 }
 

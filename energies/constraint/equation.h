@@ -11,3 +11,8 @@ PLIANT_EQUATION void constraint_jacobian(const Real* u, const Real* data, Real* 
   for (int entry = 0; entry < 9; ++entry) J[entry] = u[0] * 0;
   for (int axis = 0; axis < 3; ++axis) J[4 * axis] = J[4 * axis] + 1;
 }
+
+PLIANT_EQUATION void constraint_row(const Real* data, Real* row) {
+  (void)data;
+  row[0] = 1;
+}

@@ -17,3 +17,12 @@ PLIANT_EQUATION void regularization_jacobian(const Real* u, const Real* data, Re
     J[24 * axis + 21 + axis] = J[24 * axis + 21 + axis] - 1;
   }
 }
+
+PLIANT_EQUATION void regularization_row(const Real* data, Real* row) {
+  for (int column = 0; column < 3; ++column) {
+    row[column] = data[column];
+    row[4 + column] = 0;
+  }
+  row[3] = 1;
+  row[7] = -1;
+}

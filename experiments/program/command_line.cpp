@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <string>
 #include <vector>
@@ -68,6 +69,11 @@ Examples:
   pliant components                          every component by kind, with a line about each
   pliant components solver gauss_newton      its parameters: units, defaults, ranges
   pliant components --json > schema.json     a JSON Schema with which editors complete experiment files
+)";
+
+constexpr const char* devices_examples = R"(
+Example:
+  pliant devices    then choose one by a part of its name: pliant run my.yaml --set device=pthread
 )";
 
 constexpr const char* reproduce_examples = R"(
@@ -140,7 +146,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   components->add_flag("--json", arguments.json, "A JSON Schema of experiment files, for editors");
   components->callback([&] { components_command(arguments.kind, arguments.name, arguments.json); });
 
-  auto* devices = app.add_subcommand("devices", "The OpenCL devices of this machine");
+  auto* devices = add_command(app, "devices", "The OpenCL devices of this machine", devices_examples);
   devices->callback([] { devices_command(); });
 }
 
@@ -186,6 +192,9 @@ int run_command_line(int argc, char** argv) {
   add_commands(app, arguments);
   try {
     return parse(app, argc, argv);
+  } catch (const ConfigError& error) {
+    fmt::print(stderr, "{}\n", error.what());  // its lines begin with a place that editors understand
+    return error.exit_code();
   } catch (const Error& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return error.exit_code();

@@ -90,21 +90,30 @@ void compare_energies(std::vector<SolverTrial>& trials) {
     trial.relative_difference = lowest > 0 ? (trial.final_energy - lowest) / lowest : 0;
 }
 
+std::unique_ptr<Problem> first_problem(const ExperimentPlan::Run& run, const Method& method,
+                                       Workbench& workbench) {
+  const FramePair& pair = workbench.pair(run.values);  // what is wrong with it names its own file
+  Device& device = workbench.device(run.values);
+  return told_with_place(run.place, [&] {
+    return freeze_problem(pair, method, device, static_cast<std::uint64_t>(run.values.integer("seed")));
+  });
+}
+
 RunComparison compare_run(const ExperimentPlan::Run& run, Workbench& workbench,
                           const ProgressSink& progress) {
   const Method method = make_method(run.values, workbench.registry());
-  Device& device = workbench.device(run.values);
-  const auto frozen = freeze_problem(workbench.pair(run.values), method, device,
-                                     static_cast<std::uint64_t>(run.values.integer("seed")));
+  const auto frozen = first_problem(run, method, workbench);
   RunComparison comparison{
       run.name, frozen->node_count(), count_constraints(*frozen), frozen->unknown_count(), {}};
   const Parameters& settings = run.values.section("compare");
-  const Bench bench{*frozen, method.length_unit, device, static_cast<int>(settings.integer("repetitions")),
-                    settings.real("max_seconds")};
+  const Bench bench{*frozen, method.length_unit, workbench.device(run.values),
+                    static_cast<int>(settings.integer("repetitions")), settings.real("max_seconds")};
   const auto& solvers = run.values.sections("solvers");
   for (std::size_t i = 0; i < solvers.size(); ++i) {
+    const std::string& name = solvers[i].first;
     const auto solver = workbench.registry().make<Solver>(solvers[i].second);
-    comparison.trials.push_back(try_solver(solvers[i].first, *solver, bench));
+    comparison.trials.push_back(
+        told_with_place(run.place + ", solver " + name, [&] { return try_solver(name, *solver, bench); }));
     const SolverTrial& trial = comparison.trials.back();
     if (progress)
       progress({run.name, static_cast<double>(i + 1) / static_cast<double>(solvers.size()),

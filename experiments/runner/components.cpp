@@ -4,6 +4,7 @@
 #include "experiments/datasets/datasets.h"
 #include "experiments/report/reports.h"
 #include "framework/deformation/node_transform.h"
+#include "framework/geometry/depth_filter.h"
 #include "framework/registration/alignments.h"
 #include "framework/registration/correspondence.h"
 #include "graphs/graphs.h"
@@ -14,6 +15,7 @@ namespace pliant {
 
 void register_everything(Registry& registry) {
   register_datasets(registry);
+  register_filters(registry);
   register_alignments(registry);
   register_graphs(registry);
   register_transforms(registry);

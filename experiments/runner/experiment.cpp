@@ -89,9 +89,9 @@ ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& regis
   check_name(plan.name, file, "the experiment's name");
   for (const auto& [name, values] : plan.experiment.values.sections("runs")) {
     check_name(name, file, "the run's name");
-    plan.runs.push_back({name, values});
+    plan.runs.push_back({name, values, file + ", run " + name});
   }
-  if (plan.runs.empty()) plan.runs.push_back({plan.name, plan.experiment.values});
+  if (plan.runs.empty()) plan.runs.push_back({plan.name, plan.experiment.values, file});
   check_quick(plan, file);
   return plan;
 }

@@ -15,6 +15,7 @@ struct ExperimentPlan {
   struct Run {
     std::string name;
     Parameters values;  ///< the whole experiment, with the run's own values laid over it
+    std::string place;  ///< where an error of the run came from: its file, and its name when there are more
   };
 
   std::string name;  ///< of the experiment: its `name`, else the file's

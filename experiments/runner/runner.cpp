@@ -45,9 +45,11 @@ RunRecord make_run(const ExperimentPlan::Run& run, const fs::path& folder, Workb
   const Method method = make_method(run.values, workbench.registry());
   RunRecord record;
   record.name = run.name;
-  record.result = register_pair(pair, method, workbench.device(run.values),
-                                static_cast<std::uint64_t>(run.values.integer("seed")),
-                                named_progress(progress, run.name));
+  record.result = told_with_place(run.place, [&] {
+    return register_pair(pair, method, workbench.device(run.values),
+                         static_cast<std::uint64_t>(run.values.integer("seed")),
+                         named_progress(progress, run.name));
+  });
   const SurfaceMap target = make_surface_map(pair.target, pair.camera);
   const Evaluation evaluation(pair, record.result.source, target);
   record.initial = evaluation.measure(record.result.source.points);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "framework/core/error.h"
 #include "framework/core/registry.h"
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
@@ -27,5 +28,18 @@ class Workbench {
   std::map<std::string, std::unique_ptr<Device>> devices_;  // by what was asked for
   std::map<std::string, FramePair> pairs_;                  // by data section and seed
 };
+
+/// Does the work of a run. What a registration finds wrong is told with the place it came from, because the
+/// framework knows of no files.
+template <class Work>
+auto told_with_place(const std::string& place, Work work) {
+  try {
+    return work();
+  } catch (const DataError& error) {
+    throw DataError(place + ": " + error.what());
+  } catch (const NumericalError& error) {
+    throw NumericalError(place + ": " + error.what());
+  }
+}
 
 }  // namespace pliant

@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "framework/deformation/node_selection.h"
 #include "framework/geometry/camera.h"
-#include "framework/geometry/point_selection.h"
 #include "framework/geometry/surface.h"
 
 namespace pliant {
@@ -14,8 +14,8 @@ class GraphBuilder {
   static constexpr const char* kind = "graph";
   virtual ~GraphBuilder() = default;
   /// `source`: pixels are those of the camera's image. Both must outlive what is returned.
-  virtual std::unique_ptr<PointSelection> select_nodes(Device& device, const Surface& source,
-                                                       const Camera& camera) const = 0;
+  virtual std::unique_ptr<NodeSelection> select_nodes(Device& device, const Surface& source,
+                                                      const Camera& camera) const = 0;
 };
 
 }  // namespace pliant

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "framework/core/error.h"
 #include "framework/deformation/skinning.cl.embed.h"
@@ -20,6 +21,33 @@ void check(std::size_t node_count, int k) {
         fmt::format("the graph has {} node(s); weights over the {} nearest need at least {}: "
                     "choose a finer graph or fewer nearest nodes",
                     node_count, k, k + 1));
+}
+
+/// The points that each node moves: those of node j are points[first[j]] to before points[first[j + 1]].
+struct NodeMembers {
+  std::vector<std::size_t> first;
+  std::vector<std::size_t> points;
+};
+
+/// A point that is moved by the same nodes as the one before it tells no new edge and is left out: most are.
+NodeMembers members_of_nodes(const std::vector<int>& nodes, std::size_t k, std::size_t node_count) {
+  std::vector<std::size_t> telling;
+  std::vector<std::size_t> first(node_count + 1, 0);
+  for (std::size_t entry = 0; entry + k <= nodes.size(); entry += k) {
+    const auto point = nodes.begin() + static_cast<std::ptrdiff_t>(entry);
+    if (entry > 0 &&
+        std::equal(point, point + static_cast<std::ptrdiff_t>(k), point - static_cast<std::ptrdiff_t>(k)))
+      continue;
+    telling.push_back(entry / k);
+    for (std::size_t slot = 0; slot < k; ++slot) ++first[static_cast<std::size_t>(nodes[entry + slot]) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::size_t> points(telling.size() * k);
+  std::vector<std::size_t> next = first;
+  for (const std::size_t point : telling)
+    for (std::size_t slot = 0; slot < k; ++slot)
+      points[next[static_cast<std::size_t>(nodes[k * point + slot])]++] = point;
+  return {std::move(first), std::move(points)};
 }
 
 }  // namespace
@@ -75,21 +103,20 @@ Influences compute_influences_reference(const std::vector<float>& points,
 std::vector<Edge> find_edges(const Influences& influences, int node_count) {
   const auto& nodes = influences.nodes.host();
   const auto k = static_cast<std::size_t>(influences.per_point);
-  std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(node_count));
-  const auto connect = [&](int from, int to) {
-    auto& list = neighbours[static_cast<std::size_t>(from)];
-    if (std::find(list.begin(), list.end(), to) == list.end()) list.push_back(to);
-  };
-  for (std::size_t point = 0; point + k <= nodes.size(); point += k)
-    for (std::size_t a = 0; a < k; ++a)
-      for (std::size_t b = 0; b < k; ++b)
-        if (a != b) connect(nodes[point + a], nodes[point + b]);
-
+  const NodeMembers members = members_of_nodes(nodes, k, static_cast<std::size_t>(node_count));
   std::vector<Edge> edges;
+  std::vector<int> seen_from(static_cast<std::size_t>(node_count), -1);
   for (int from = 0; from < node_count; ++from) {
-    auto& list = neighbours[static_cast<std::size_t>(from)];
-    std::sort(list.begin(), list.end());
-    for (const int to : list) edges.push_back({from, to});
+    const auto first_edge = static_cast<std::ptrdiff_t>(edges.size());
+    seen_from[static_cast<std::size_t>(from)] = from;
+    const auto node = static_cast<std::size_t>(from);
+    for (std::size_t i = members.first[node]; i < members.first[node + 1]; ++i)
+      for (std::size_t slot = 0; slot < k; ++slot) {
+        const int to = nodes[k * members.points[i] + slot];
+        if (std::exchange(seen_from[static_cast<std::size_t>(to)], from) != from) edges.push_back({from, to});
+      }
+    std::sort(edges.begin() + first_edge, edges.end(),
+              [](const Edge& a, const Edge& b) { return a.to < b.to; });
   }
   return edges;
 }

@@ -6,18 +6,13 @@
 #include "framework/deformation/graph.h"
 #include "framework/deformation/skinning.h"
 #include "framework/device/array.h"
+#include "framework/geometry/point_set.h"
 
 namespace pliant {
 
 /// Numbers of a node's affine form: the columns of R - I, then t (mm). R and t are those of [Eq. 4.1];
 /// the deviation from the identity is stored, not R, so that single precision keeps small motions.
 inline constexpr int affine_size = 12;
-
-/// Points and unit normals, x y z each.
-struct PointSet {
-  Array<float> points;
-  Array<float> normals;
-};
 
 /// Deforms points and normals [Eq. 4.1] on the device: p' = sum_j w_j (R_j (p - g_j) + g_j + t_j); a
 /// normal turns with the cofactors of sum_j w_j R_j and stays of unit length ((0, 0, 0) stays so).

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,13 @@ class Array {
     }
     return host_;
   }
+  /// Copies the values to `to`, without keeping them on the host.
+  void copy_to(T* to) const {
+    if (host_is_current_ || device_ == nullptr)
+      std::copy(host().begin(), host().end(), to);
+    else
+      device_->read(buffer_, to, bytes());
+  }
   /// For changing values on the host (not their number); the device's copy becomes stale.
   std::vector<T>& write_host() {
     host();
@@ -42,9 +50,11 @@ class Array {
   }
 
   const cl::Buffer& device(Device& device) const {
-    attach(device);
-    if (!device_is_current_) {
-      if (host_is_current_) device.write(buffer_, host_.data(), bytes());
+    if (device_ != nullptr && device_ != &device) host();  // devices exchange through the host
+    if (device_ != &device || !device_is_current_) {
+      // A fresh buffer rather than a write into the old one, which would wait for the device.
+      buffer_ = host_is_current_ ? device.upload(host_.data(), bytes()) : device.allocate(bytes());
+      device_ = &device;
       device_is_current_ = true;
     }
     return buffer_;
@@ -58,13 +68,6 @@ class Array {
 
  private:
   std::size_t bytes() const { return size_ * sizeof(T); }
-  void attach(Device& device) const {
-    if (device_ == &device) return;
-    if (device_ != nullptr) host();  // moving from one device to another goes through the host
-    buffer_ = device.allocate(bytes());
-    device_ = &device;
-    device_is_current_ = false;
-  }
 
   mutable std::vector<T> host_;
   std::size_t size_ = 0;

@@ -100,15 +100,16 @@ Device::Device(const std::string& selection) {
 }
 
 cl::Kernel Device::kernel(std::string_view source, const std::string& name, const std::string& options) {
-  const std::string all_options = fmt::format("-cl-std=CL1.2 -DWIDTH={} {}", width(), options);
-  auto& program = programs_[{all_options, std::string(source)}];
+  auto& [program, kernels] = program_of(source, options);
+  auto& kernel = kernels[name];
+  if (kernel() != nullptr) return kernel;
   try {
     if (program() == nullptr) {
       cl::Program fresh(context_, std::string(source));
-      fresh.build({device_}, all_options.c_str());
+      fresh.build({device_}, all_options(options).c_str());
       program = fresh;
     }
-    return cl::Kernel(program, name.c_str());
+    return kernel = cl::Kernel(program, name.c_str());
   } catch (const cl::BuildError& error) {
     std::string log;
     for (const auto& entry : error.getBuildLog()) log += entry.second;
@@ -116,6 +117,16 @@ cl::Kernel Device::kernel(std::string_view source, const std::string& name, cons
   } catch (const cl::Error& error) {
     fail("making kernel " + name, error);
   }
+}
+
+std::string Device::all_options(const std::string& options) const {
+  return fmt::format("-cl-std=CL1.2 -DWIDTH={} {}", width(), options);
+}
+
+Device::Program& Device::program_of(std::string_view source, const std::string& options) {
+  std::string key;
+  key.reserve(options.size() + 1 + source.size());
+  return programs_[key.append(options).append(1, '\n').append(source)];
 }
 
 void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::size_t global,
@@ -139,6 +150,16 @@ cl::Buffer Device::allocate(std::size_t bytes) const {
   try {
     // OpenCL has no empty buffers; one byte keeps empty arrays usable as kernel arguments.
     return cl::Buffer(context_, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 1));
+  } catch (const cl::Error& error) {
+    fail(fmt::format("allocating {} bytes on {}", bytes, info_.name), error);
+  }
+}
+
+cl::Buffer Device::upload(const void* data, std::size_t bytes) const {
+  if (bytes == 0) return allocate(0);
+  try {
+    // OpenCL copies at once and keeps no pointer to the data.
+    return cl::Buffer(context_, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, bytes, const_cast<void*>(data));
   } catch (const cl::Error& error) {
     fail(fmt::format("allocating {} bytes on {}", bytes, info_.name), error);
   }

@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -47,9 +48,10 @@ class Device {
   /// Lanes of the explicit vectors that kernels are written over: 16 on a CPU, 1 on a GPU.
   int width() const { return info_.is_gpu ? 1 : 16; }
 
-  /// The kernel `name` of a program. A program is built once per source and options and kept; drivers
-  /// keep binaries on disk beyond that. `-DWIDTH=<width()>` is always defined.
-  /// Throws DeviceError with the build log when the source does not compile.
+  /// The kernel `name` of a program. A program and its kernels are made once per source and options and kept;
+  /// drivers keep binaries on disk beyond that. All who ask for a kernel share it, arguments included.
+  /// `-DWIDTH=<width()>` is always defined. Throws DeviceError with the build log when the source does not
+  /// compile.
   cl::Kernel kernel(std::string_view source, const std::string& name, const std::string& options = "");
 
   /// Enqueues a kernel over a one-dimensional range. `local` = 0 leaves the group size to the driver;
@@ -65,6 +67,14 @@ class Device {
   /// A buffer of uninitialised bytes; DeviceError names the size when it does not fit.
   cl::Buffer allocate(std::size_t bytes) const;
 
+  /// A buffer made of host values; unlike write() this does not wait for the device.
+  cl::Buffer upload(const void* data, std::size_t bytes) const;
+  template <class T>
+  cl::Buffer upload(const std::vector<T>& values) const {
+    return upload(values.data(), sizeof(T) * values.size());
+  }
+
+  /// Waits for everything enqueued so far.
   void write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const;
   /// Waits for everything enqueued so far.
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
@@ -93,7 +103,14 @@ class Device {
   cl::Device device_;
   cl::Context context_;
   cl::CommandQueue queue_;
-  std::map<std::pair<std::string, std::string>, cl::Program> programs_;  // by options and source
+  struct Program {
+    cl::Program program;
+    std::unordered_map<std::string, cl::Kernel> kernels;
+  };
+  Program& program_of(std::string_view source, const std::string& options);
+  std::string all_options(const std::string& options) const;
+
+  std::unordered_map<std::string, Program> programs_;  // by options and source
   bool measuring_ = false;
   std::vector<std::pair<std::string, cl::Event>> events_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "framework/device/array.h"
@@ -19,8 +20,9 @@ class PointSelection {
   virtual bool adapt(Device& device, const Array<float>& residuals) = 0;
 };
 
-/// A selection that never changes.
-class FixedSelection : public PointSelection {
+/// A selection (of whichever kind) that never changes.
+template <class Selection>
+class FixedSelection : public Selection {
  public:
   explicit FixedSelection(std::vector<int> points) : points_(std::move(points)) {}
   const std::vector<int>& points() const override { return points_; }

@@ -76,15 +76,11 @@ Moments collect_window(const PointImage& points, int u, int v, int radius, float
 
 /// Unit normal of the plane through the points of a window, zero where they define none.
 Eigen::Vector3d fit_normal(const Moments& moments) {
-  constexpr int kFewestPoints = 4;  // the centre and three neighbours
-  // Of the two spreads within the plane, the smaller one over the larger: below it the points lie on a
-  // line and every plane through it fits.
-  constexpr double kFlattest = 1e-6;
-  if (moments.count < kFewestPoints) return Eigen::Vector3d::Zero();
+  if (moments.count < fewest_plane_points) return Eigen::Vector3d::Zero();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(moments.covariance());
   const Eigen::Vector3d& spread = solver.eigenvalues();
-  if (spread[1] <= kFlattest * spread[2]) return Eigen::Vector3d::Zero();
+  if (spread[1] <= flattest_spread * spread[2]) return Eigen::Vector3d::Zero();
   return solver.eigenvectors().col(0);
 }
 

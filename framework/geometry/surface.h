@@ -26,12 +26,21 @@ struct SurfaceMap {
   Image<Eigen::Vector3f> normals;
 };
 
-/// Depth to points and normals. Only pixels with a finite positive depth count, and only those inside
-/// the mask where there is one. A normal comes from the plane fitted to the valid points of the
-/// (2 radius + 1)^2 window whose depth differs from the centre's by less than `depth_step` mm
-/// [thesis 3.1]; at least three neighbours are needed.
-SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius = 2,
-                            float depth_step = 30);
+/// The window over which normals are fitted.
+inline constexpr int default_normal_radius = 2;
+inline constexpr float default_depth_step = 30;  // mm
+/// Fewest points of a window that give a normal: the centre and three neighbours.
+inline constexpr int fewest_plane_points = 4;
+/// Of the two spreads (variances) within the plane, the smaller one over the larger: below it the points lie
+/// on a line, and every plane through it fits. Single precision still resolves it.
+inline constexpr float flattest_spread = 1e-5F;
+
+/// Depth to points and normals, in plain C++ (depth_map.h does it on a device). Only pixels with a finite
+/// positive depth count, and only those inside the mask where there is one. A normal comes from the plane
+/// fitted to the valid points of the (2 radius + 1)^2 window whose depth differs from the centre's by less
+/// than `depth_step` mm [thesis 3.1]; at least three neighbours are needed.
+SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius = default_normal_radius,
+                            float depth_step = default_depth_step);
 
 /// The valid points of a map as a list, with colours from `color` when that is not empty.
 Surface make_surface(const SurfaceMap& map, const ColorImage& color);

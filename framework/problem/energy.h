@@ -31,6 +31,8 @@ constexpr int input_size(Stencil stencil) {
 constexpr int data_size(Stencil stencil) {
   return stencil == Stencil::per_node ? 0 : stencil == Stencil::per_edge ? 3 : 6;
 }
+/// Length of the scalar row of an axis-separable term.
+constexpr int row_size(Stencil stencil) { return input_size(stencil) / 3; }
 const char* to_string(Stencil stencil);
 
 /// One residual with its Jacobian, written once in an equation.h and compiled three ways: in double for
@@ -38,18 +40,29 @@ const char* to_string(Stencil stencil);
 struct Equation {
   using Jet = ceres::Jet<double, max_stencil_inputs>;
 
-  std::string name;         ///< the functions are `<name>_residual` and `<name>_jacobian`
+  std::string name;         ///< the functions are `<name>_residual`, `<name>_jacobian` and `<name>_row`
   std::string_view source;  ///< text of the equation.h
   void (*residual)(const double* u, const double* data, double* r) = nullptr;
   void (*jacobian)(const double* u, const double* data, double* jacobian) = nullptr;
   void (*residual_jet)(const Jet* u, const Jet* data, Jet* r) = nullptr;
+  /// Only of a term that treats x, y and z alike and apart: its three residuals are
+  /// r[axis] = sum over m of row[m] * u[3 m + axis] + constant. See row_size() for the length of `row`.
+  void (*row)(const double* data, double* row) = nullptr;
+
+  bool axis_separable() const { return row != nullptr; }
 };
 
 /// Fills an Equation from the functions of an included equation.h and its embedded text.
 #define PLIANT_MAKE_EQUATION(NAME, SOURCE)                                 \
   ::pliant::Equation {                                                     \
 #NAME, SOURCE, &NAME##_residual < double>, &NAME##_jacobian < double>, \
-        &NAME##_residual < ::pliant::Equation::Jet>                        \
+        &NAME##_residual < ::pliant::Equation::Jet>, nullptr               \
+  }
+/// The same for an equation.h that also defines NAME_row.
+#define PLIANT_MAKE_SEPARABLE_EQUATION(NAME, SOURCE)                       \
+  ::pliant::Equation {                                                     \
+#NAME, SOURCE, &NAME##_residual < double>, &NAME##_jacobian < double>, \
+        &NAME##_residual < ::pliant::Equation::Jet>, &NAME##_row < double> \
   }
 
 /// One term of E_tot [Eq. 4.6]: weight * sum over instances of |r|^2.
@@ -64,6 +77,7 @@ struct Energy {
 };
 
 /// Registers an energy whose only parameter is its weight.
+/// Throws std::logic_error for more residuals than max_residuals.
 void add_energy(Registry& registry, const std::string& name, const std::string& doc, const Energy& energy);
 
 }  // namespace pliant

@@ -5,8 +5,16 @@
 //   PLIANT_EQUATION void NAME_residual(const Real* u, const Real* data, Real* r)
 //   PLIANT_EQUATION void NAME_jacobian(const Real* u, const Real* data, Real* J)   // row-major, r by u
 //
-// in the common subset of both languages: arithmetic, local arrays, loops with constant bounds; no
-// allocation, no library calls but sqrt. What u and data hold is fixed by the stencil (stencil.h).
+// A term that treats the axes x, y and z alike and apart says so by a third function, its scalar row:
+//
+//   PLIANT_EQUATION void NAME_row(const Real* data, Real* row)   // r[axis] = row . u[axis of each] +
+//   constant
+//
+// Then the fast solver `structured` needs 16 numbers where others need 144.
+//
+// All of them in the common subset of both languages: arithmetic, local arrays, loops with constant bounds;
+// no allocation, no library calls but sqrt. What u and data hold is fixed by the stencil (energy.h). Terms
+// per node are run on the device over vectors of nodes: no branches there.
 #ifndef PLIANT_EQUATION
 #ifdef __OPENCL_VERSION__
 #define PLIANT_EQUATION static inline

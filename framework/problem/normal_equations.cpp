@@ -9,6 +9,7 @@
 
 #include "framework/deformation/warp.h"
 #include "framework/problem/assembly.cl.embed.h"
+#include "framework/problem/equation_source.h"
 #include "framework/problem/evaluate.cl.embed.h"
 
 namespace pliant {
@@ -56,18 +57,6 @@ std::vector<std::vector<int>> find_blocks(const Problem& problem) {
   return columns;
 }
 
-std::string without_preprocessor_includes(std::string_view source) {
-  std::string text;
-  std::size_t begin = 0;
-  while (begin < source.size()) {
-    const auto end = std::min(source.find('\n', begin), source.size());
-    const auto line = source.substr(begin, end - begin);
-    if (!line.starts_with("#include") && !line.starts_with("#pragma once")) text += std::string(line) + "\n";
-    begin = end + 1;
-  }
-  return text;
-}
-
 const char* stencil_macro(Stencil stencil) {
   return stencil == Stencil::per_node   ? "PER_NODE"
          : stencil == Stencil::per_edge ? "PER_EDGE"
@@ -76,11 +65,11 @@ const char* stencil_macro(Stencil stencil) {
 
 std::string evaluation_source(const Energy& energy) {
   return fmt::format(
-      "#define PLIANT_EQUATION static inline\n#define Real float\n{0}\n#define {2}\n#define ROWS {3}\n"
+      "{0}\n#define {2}\n#define ROWS {3}\n"
       "#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define KERNEL(x) "
       "x##_{1}\n{4}",
-      without_preprocessor_includes(energy.equation.source), energy.equation.name,
-      stencil_macro(energy.stencil), energy.residuals, embedded::framework_problem_evaluate_cl);
+      equation_source(energy, "float"), energy.equation.name, stencil_macro(energy.stencil), energy.residuals,
+      embedded::framework_problem_evaluate_cl);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "framework/core/error.h"
 #include "framework/deformation/warp.h"
@@ -13,21 +14,35 @@ namespace {
 
 void check_edges(const DeformationGraph& graph) {
   const auto count = static_cast<int>(graph.nodes.size());
-  for (const auto& edge : graph.edges)
+  for (const auto& edge : graph.edges) {
     if (std::min(edge.from, edge.to) < 0 || std::max(edge.from, edge.to) >= count)
       throw DataError(
           fmt::format("edge ({}, {}) names a node that is not among the {}", edge.from, edge.to, count));
+    if (edge.from == edge.to) throw DataError(fmt::format("an edge joins node {} with itself", edge.from));
+  }
+}
+
+// Ceres aborts when an instance names the same unknowns twice.
+void check_repetition(const Influences& influences) {
+  const auto k = static_cast<std::ptrdiff_t>(influences.per_point);
+  const auto& nodes = influences.nodes.host();
+  for (auto begin = nodes.begin(); begin != nodes.end(); begin += k)
+    for (auto node = begin; node != begin + k; ++node)
+      if (std::find(begin, node, *node) != node)
+        throw DataError(fmt::format("a constraint hangs on node {} twice", *node));
 }
 
 void check_constraints(const Constraints& constraints, int node_count) {
   const auto count = constraints.size();
   const auto entries = count * static_cast<std::size_t>(constraints.influences.per_point);
-  if (constraints.influences.nodes.size() != entries || constraints.influences.weights.size() != entries ||
+  if ((count > 0 && constraints.influences.per_point < 1) || constraints.points.size() != 3 * count ||
+      constraints.influences.nodes.size() != entries || constraints.influences.weights.size() != entries ||
       constraints.data.size() != 6 * count || constraints.confidence.size() != count)
     throw DataError(fmt::format("the arrays of {} constraints do not fit together", count));
   for (const int node : constraints.influences.nodes.host())
     if (node < 0 || node >= node_count)
       throw DataError(fmt::format("a constraint hangs on node {} of {}", node, node_count));
+  check_repetition(constraints.influences);
 }
 
 double squared_norm(const std::array<double, max_residuals>& r, int count) {
@@ -62,8 +77,13 @@ void gather_constraint(const Problem& problem, const Constraints& constraints, s
 Problem::Problem(DeformationGraph graph, std::vector<Term> terms, double length_unit)
     : graph_(std::move(graph)), terms_(std::move(terms)), length_unit_(length_unit) {
   if (graph_.nodes.empty()) throw DataError("a problem needs at least one node");
+  if (!(length_unit_ > 0) || !std::isfinite(length_unit_))
+    throw DataError(fmt::format("a unit of length of {} mm", length_unit_));
   check_edges(graph_);
   for (const auto& term : terms_) {
+    if (!(term.energy.weight >= 0) || !std::isfinite(term.energy.weight))
+      throw DataError(
+          fmt::format("the weight of energy {} is {}", term.energy.equation.name, term.energy.weight));
     if ((term.energy.stencil == Stencil::per_constraint) != (term.constraints != nullptr))
       throw DataError(fmt::format("energy {} {} constraints", term.energy.equation.name,
                                   term.constraints ? "takes no" : "needs"));

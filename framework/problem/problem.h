@@ -33,8 +33,9 @@ class Problem {
  public:
   /// Starts at the identity. `length_unit`: millimetres per unit of length in which the energies are
   /// measured: 1 for the thesis's balance of weights, 1000 for metres.
-  /// Throws DataError for an edge or an influence that names a node that is not there, or for sizes
-  /// that do not fit together.
+  /// Throws DataError for an edge or an influence that names a node that is not there or the same node
+  /// twice, for sizes that do not fit together, and for weights and units that are not numbers to measure
+  /// with.
   Problem(DeformationGraph graph, std::vector<Term> terms, double length_unit = 1);
 
   const DeformationGraph& graph() const { return graph_; }

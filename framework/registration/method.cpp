@@ -26,6 +26,7 @@ StoppingRule make_stopping(const Parameters& section) {
 std::vector<Parameter> method_rows() {
   const Method method;
   return {
+      component("filter", "filter", "none").doc("Noise reduction of both depth images before registration"),
       component("alignment", "alignment", "none").doc("Rigid motion from which registration starts"),
       component("graph", "graph", "uniform").doc("Where the nodes of the deformation graph are"),
       component("transform", "transform", "affine").doc("What a node carries"),
@@ -46,6 +47,7 @@ std::vector<Parameter> method_rows() {
 
 Method make_method(const Parameters& experiment, const Registry& registry) {
   Method method;
+  method.filter = registry.make<DepthFilter>(experiment.section("filter"));
   method.alignment = registry.make<Alignment>(experiment.section("alignment"));
   method.graph = registry.make<GraphBuilder>(experiment.section("graph"));
   method.transform = registry.make<NodeTransform>(experiment.section("transform"));

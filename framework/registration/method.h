@@ -6,6 +6,7 @@
 #include "framework/core/registry.h"
 #include "framework/deformation/graph_builder.h"
 #include "framework/deformation/node_transform.h"
+#include "framework/geometry/depth_filter.h"
 #include "framework/problem/solver.h"
 #include "framework/registration/alignment.h"
 #include "framework/registration/correspondence.h"
@@ -22,6 +23,7 @@ struct StoppingRule {
 
 /// How a pair is registered: the components that an experiment file puts together.
 struct Method {
+  std::unique_ptr<DepthFilter> filter;
   std::unique_ptr<Alignment> alignment;
   std::unique_ptr<GraphBuilder> graph;
   std::unique_ptr<NodeTransform> transform;

@@ -2,50 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "framework/core/error.h"
 #include "framework/deformation/warm_start.h"
 #include "framework/registration/residual.h"
+#include "framework/registration/scene.h"
+#include "framework/registration/stopwatch.h"
 
 namespace pliant {
 namespace {
-
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Runs `work` and adds its time on the host to a stage.
-template <class Work>
-auto timed(StageTimes& times, const std::string& stage, Work work) {
-  const Stopwatch watch;
-  auto result = work();
-  times[stage] += watch.milliseconds();
-  return result;
-}
-
-Array<float> flatten(const std::vector<Eigen::Vector3f>& vectors) {
-  std::vector<float> values;
-  values.reserve(3 * vectors.size());
-  for (const auto& vector : vectors) values.insert(values.end(), vector.data(), vector.data() + 3);
-  return Array<float>(std::move(values));
-}
-
-std::vector<Eigen::Vector3f> unflatten(const Array<float>& values) {
-  std::vector<Eigen::Vector3f> vectors;
-  vectors.reserve(values.size() / 3);
-  for (std::size_t i = 0; i + 2 < values.size(); i += 3)
-    vectors.emplace_back(values.host()[i], values.host()[i + 1], values.host()[i + 2]);
-  return vectors;
-}
 
 template <class T>
 std::vector<T> pick(const std::vector<T>& values, const std::vector<int>& indices) {
@@ -53,38 +20,6 @@ std::vector<T> pick(const std::vector<T>& values, const std::vector<int>& indice
   picked.reserve(indices.size());
   for (const int index : indices) picked.push_back(values[static_cast<std::size_t>(index)]);
   return picked;
-}
-
-Surface move_rigidly(const Surface& surface, const Eigen::Isometry3d& motion) {
-  Surface moved = surface;
-  const Eigen::Isometry3f single = motion.cast<float>();
-  for (auto& point : moved.points) point = single * point;
-  for (auto& normal : moved.normals) normal = single.linear() * normal;
-  return moved;
-}
-
-/// What stays as it is while a pair is registered.
-struct Scene {
-  const FramePair& pair;
-  Surface source;   ///< as given
-  Surface aligned;  ///< after the initial alignment
-  AlignmentResult alignment;
-  Target target;
-  PointSet rest;  ///< `aligned` on the device
-};
-
-Scene make_scene(const FramePair& pair, const Method& method, std::uint64_t seed, StageTimes& times) {
-  Surface source = timed(times, "surface", [&] {
-    return make_surface(make_surface_map(pair.source, pair.camera), pair.source.color);
-  });
-  if (source.size() == 0) throw DataError(pair.name + ": the source has no point");
-  Target target = timed(times, "surface",
-                        [&] { return Target(pair.camera, make_surface_map(pair.target, pair.camera)); });
-  const AlignmentResult alignment =
-      timed(times, "alignment", [&] { return method.alignment->align(pair, seed); });
-  Surface aligned = move_rigidly(source, alignment.motion);
-  PointSet rest{flatten(aligned.points), flatten(aligned.normals)};
-  return {pair, std::move(source), std::move(aligned), alignment, std::move(target), std::move(rest)};
 }
 
 /// Graph, weights and constraints, and the problem that they make: what adapting makes anew.
@@ -137,20 +72,27 @@ Model make_model(const Scene& scene, const Method& method, Device& device, const
           std::move(constraints), std::move(problem)};
 }
 
+/// Room for a deformed set of points.
+PointSet unwritten(const PointSet& rest) {
+  return {Array<float>(rest.points.size()), Array<float>(rest.normals.size())};
+}
+
 /// One registration [thesis Figure 4.1].
 class Registration {
  public:
   Registration(const FramePair& pair, const Method& method, Device& device, std::uint64_t seed)
       : method_(method),
         device_(device),
-        scene_(make_scene(pair, method, seed, times_)),
+        scene_(make_scene(pair, method, device, seed, times_)),
         nodes_(timed(times_, "ans",
                      [&] { return method.graph->select_nodes(device, scene_.aligned, pair.camera); })),
         samples_(timed(times_, "acs",
                        [&] { return method.sampler->select(device, scene_.aligned, pair.camera); })),
         model_(make_model(scene_, method, device, *nodes_, *samples_, times_)),
-        moved_{Array<float>(scene_.rest.points.host()), Array<float>(scene_.rest.normals.host())},
-        meter_(device, scene_.target, scene_.aligned.size()) {}
+        moved_(unwritten(scene_.rest)),
+        meter_(device, scene_.target, scene_.aligned.size()) {
+    update_source();
+  }
 
   void match() {
     method_.correspondence->match(device_, moved_, model_.selected, scene_.target, *model_.constraints);
@@ -183,6 +125,13 @@ class Registration {
 
   void update_source() {
     warp(device_, scene_.rest, model_.influences, model_.node_points, model_.problem->unknowns(), moved_);
+  }
+
+  /// The deformation of the filtered points, applied to those that were given.
+  void deform_unfiltered() {
+    const Influences influences = compute_influences(device_, scene_.unfiltered->points,
+                                                     model_.problem->graph().nodes, method_.nearest_nodes);
+    warp(device_, *scene_.unfiltered, influences, model_.node_points, model_.problem->unknowns(), moved_);
   }
 
   double measure() {
@@ -236,7 +185,7 @@ class Registration {
   const Method& method_;
   Device& device_;
   Scene scene_;
-  std::unique_ptr<PointSelection> nodes_;
+  std::unique_ptr<NodeSelection> nodes_;
   std::unique_ptr<PointSelection> samples_;
   Model model_;
   PointSet moved_;
@@ -260,9 +209,11 @@ void record_solves(const std::vector<SolverSummary>& summaries, RegistrationResu
 
 RegistrationResult Registration::take_result() {
   RegistrationResult result;
+  if (scene_.unfiltered) deform_unfiltered();
   result.points = unflatten(moved_.points);
   result.normals = unflatten(moved_.normals);
   result.node_positions = pick(scene_.aligned.points, model_.nodes);
+  result.graph_cells = nodes_->cells();
   result.counts.source_points = static_cast<int>(scene_.source.size());
   result.counts.nodes = model_.problem->node_count();
   result.counts.edges = static_cast<int>(model_.problem->graph().edges.size());
@@ -274,7 +225,8 @@ RegistrationResult Registration::take_result() {
   for (const auto& [stage, time] : device_.take_stage_times()) result.time_ms[stage] += time;
   record_solves(summaries_, result);
   result.source = std::move(scene_.source);
-  result.aligned_points = std::move(scene_.aligned.points);
+  result.aligned_points =
+      scene_.unfiltered ? unflatten(scene_.unfiltered->points) : std::move(scene_.aligned.points);
   result.alignment = scene_.alignment;
   return result;
 }

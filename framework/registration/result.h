@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/deformation/node_selection.h"
 #include "framework/device/device.h"
 #include "framework/geometry/surface.h"
 #include "framework/registration/alignment.h"
@@ -17,6 +18,7 @@ struct RegistrationResult {
   std::vector<Eigen::Vector3f> normals;         ///< of `points`
   AlignmentResult alignment;
   std::vector<Eigen::Vector3f> node_positions;  ///< mm, nodes of the last graph on the aligned source
+  std::vector<GraphCell> graph_cells;           ///< of the last graph; empty where it has none
 
   struct Counts {
     int source_points = 0;

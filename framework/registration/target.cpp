@@ -1,18 +1,13 @@
 #include "framework/registration/target.h"
 
+#include <utility>
+
 namespace pliant {
-namespace {
 
-Array<float> flatten(const Image<Eigen::Vector3f>& image) {
-  std::vector<float> values;
-  values.reserve(3 * image.size());
-  for (const auto& vector : image.pixels()) values.insert(values.end(), vector.data(), vector.data() + 3);
-  return Array<float>(std::move(values));
-}
-
-}  // namespace
+Target::Target(const Camera& camera, PointSet map)
+    : camera(camera), points(std::move(map.points)), normals(std::move(map.normals)) {}
 
 Target::Target(const Camera& camera, const SurfaceMap& map)
-    : camera(camera), points(flatten(map.points)), normals(flatten(map.normals)) {}
+    : Target(camera, PointSet{flatten(map.points.pixels()), flatten(map.normals.pixels())}) {}
 
 }  // namespace pliant

@@ -2,6 +2,7 @@
 
 #include "framework/device/array.h"
 #include "framework/geometry/camera.h"
+#include "framework/geometry/point_set.h"
 #include "framework/geometry/surface.h"
 
 namespace pliant {
@@ -13,6 +14,8 @@ struct Target {
   Array<float> points;   ///< mm, camera frame
   Array<float> normals;  ///< unit length, or (0, 0, 0)
 
+  /// `map`: one point a pixel of the camera.
+  Target(const Camera& camera, PointSet map);
   Target(const Camera& camera, const SurfaceMap& map);
 };
 

@@ -34,9 +34,9 @@ class UniformGraph : public GraphBuilder {
  public:
   UniformGraph(int spacing, std::optional<int> wished) : spacing_(spacing), wished_(wished) {}
 
-  std::unique_ptr<PointSelection> select_nodes(Device&, const Surface& source, const Camera&) const override {
-    return std::make_unique<FixedSelection>(wished_ ? grid_of_about(source, *wished_)
-                                                    : points_on_grid(source, spacing_));
+  std::unique_ptr<NodeSelection> select_nodes(Device&, const Surface& source, const Camera&) const override {
+    return std::make_unique<FixedSelection<NodeSelection>>(wished_ ? grid_of_about(source, *wished_)
+                                                                   : points_on_grid(source, spacing_));
   }
 
  private:

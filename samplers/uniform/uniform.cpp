@@ -11,7 +11,7 @@ class UniformSampler : public ConstraintSampler {
  public:
   explicit UniformSampler(int step) : step_(step) {}
   std::unique_ptr<PointSelection> select(Device&, const Surface& source, const Camera&) const override {
-    return std::make_unique<FixedSelection>(points_on_grid(source, step_));
+    return std::make_unique<FixedSelection<PointSelection>>(points_on_grid(source, step_));
   }
 
  private:

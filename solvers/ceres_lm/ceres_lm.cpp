@@ -140,8 +140,12 @@ class BoundCeres : public BoundSolver {
     options.logging_type = ceres::SILENT;
     ceres::Solve(options, &ceres_problem, &summary);
     std::vector<double> energies;
-    for (std::size_t i = 1; i < summary.iterations.size(); ++i)
-      energies.push_back(2 * summary.iterations[i].cost);
+    double energy = 2 * summary.initial_cost;  // Ceres halves the squares
+    for (std::size_t i = 1; i < summary.iterations.size(); ++i) {
+      const auto& iteration = summary.iterations[i];
+      if (iteration.step_is_successful) energy = 2 * iteration.cost;
+      energies.push_back(energy);
+    }
     return energies;
   }
 
@@ -149,7 +153,7 @@ class BoundCeres : public BoundSolver {
     SolverSummary made;
     made.solver = "ceres_lm";
     made.linear_solver = options_.linear_solver;
-    made.initial_energy = 2 * summary.initial_cost;  // Ceres halves the squares
+    made.initial_energy = 2 * summary.initial_cost;
     made.final_energy = 2 * summary.final_cost;
     made.energies = energies;
     made.iterations = static_cast<int>(energies.size());

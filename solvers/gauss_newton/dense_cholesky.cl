@@ -4,7 +4,8 @@
 
 #define BLOCK 64
 
-// Places the 12x12 blocks; the diagonal is raised by lambda (status[3]).
+// Places the 12x12 blocks; the diagonal is raised by lambda (status[3]). An unknown that nothing touches has
+// a row of zeros: a 1 on its diagonal keeps it where it is.
 kernel void scatter(global const int* status, int block_count, int n, global const int* rows,
                     global const int* columns, global const float* blocks, global float* A) {
   const int pair = get_global_id(0);
@@ -14,7 +15,7 @@ kernel void scatter(global const int* status, int block_count, int n, global con
     for (int b = 0; b < 12; ++b) {
       const int row = 12 * rows[pair] + a, column = 12 * columns[pair] + b;
       const float value = blocks[144 * pair + 12 * a + b];
-      A[row * n + column] = row == column ? value * (1 + damping) : value;
+      A[row * n + column] = row != column ? value : value == 0 ? 1 : value * (1 + damping);
     }
 }
 

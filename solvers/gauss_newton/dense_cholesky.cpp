@@ -2,16 +2,16 @@
 
 #include "framework/deformation/warp.h"
 #include "solvers/gauss_newton/dense_cholesky.cl.embed.h"
-#include "solvers/gauss_newton/linear_solver.h"
+#include "solvers/gauss_newton/stepwise.h"
 
 namespace pliant {
 namespace {
 
 constexpr int block = 64;  // BLOCK in dense_cholesky.cl
 
-class BoundDenseCholesky : public BoundLinearSolver {
+class DenseCholeskySteps : public StepSolver {
  public:
-  explicit BoundDenseCholesky(NormalEquations& equations)
+  explicit DenseCholeskySteps(NormalEquations& equations)
       : equations_(equations),
         device_(equations.device()),
         unknowns_(affine_size * equations.node_count()),
@@ -99,13 +99,17 @@ class BoundDenseCholesky : public BoundLinearSolver {
 
 class DenseCholesky : public LinearSolver {
  public:
-  std::string name() const override { return "dense_cholesky"; }
-  std::unique_ptr<BoundLinearSolver> bind(NormalEquations& equations) const override {
-    return std::make_unique<BoundDenseCholesky>(equations);
+  std::unique_ptr<Course> bind(Problem& problem, Device& device,
+                               const CourseOptions& options) const override {
+    return make_stepwise_course(problem, device, options, "dense_cholesky", make_dense_cholesky_steps);
   }
 };
 
 }  // namespace
+
+std::unique_ptr<StepSolver> make_dense_cholesky_steps(NormalEquations& equations) {
+  return std::make_unique<DenseCholeskySteps>(equations);
+}
 
 void register_dense_cholesky(Registry& registry) {
   registry.add<LinearSolver>(

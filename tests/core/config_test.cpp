@@ -157,6 +157,19 @@ TEST_F(Config, FilesOfSetAreFoundFromTheCurrentFolder) {
                           "not exist; looked for elsewhere/a.png"));
 }
 
+TEST_F(Config, ExtendsIsFoundInABaseFolderWhenItIsNotBesideTheFile) {
+  write("installed/methods/toy.yaml", "extends: root.yaml\ntitle: installed\n");
+  write("installed/methods/root.yaml",
+        "data: sheet\nenergies: {constraint: {weight: 1}}\nsolver: {iterations: 3}\n");
+  const auto file = write("mine/exp.yaml", "extends: methods/toy.yaml\n");
+  const ConfigSource source{file, {}, {}, {folder_ / "nowhere", folder_ / "installed"}};
+  const auto values = load_experiment(source, table_, registry_).values;
+  EXPECT_EQ(values.text("title"), "installed");
+  EXPECT_EQ(values.section("solver").integer("iterations"), 3);
+  write("mine/methods/toy.yaml", "extends: ../../installed/methods/root.yaml\ntitle: beside\n");
+  EXPECT_EQ(load_experiment(source, table_, registry_).values.text("title"), "beside");
+}
+
 TEST_F(Config, ExtendsMergesKeyByKeyInTheOrderOfTheBase) {
   write("root.yaml",
         "data: sheet\nsolver: {iterations: 3, tolerance: 0.5}\nenergies: {rotation: {weight: 2}}\n");

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+namespace pliant::bench {
+
+struct Options {
+  std::string json;    ///< file for the rows; none when empty
+  std::string only;    ///< measure only what has this in its name
+  bool quick = false;  ///< fewer sizes and repetitions
+};
+
+/// How often a piece of work is timed.
+struct Repeats {
+  int repetitions = 5;  ///< the median over these counts
+  int iterations = 0;   ///< in each; 0: as many as fill a fifth of a second
+};
+
+/// Pieces of work to be timed by Google Benchmark in one go, repetitions interleaved, so that they see the
+/// same machine.
+class Timings {
+ public:
+  void add(const std::string& name, const Repeats& repeats, std::function<void()> work);
+  /// Median milliseconds of each, by name.
+  std::map<std::string, double> run();
+};
+
+int run_solver_mode(const Options& options);
+
+}  // namespace pliant::bench

@@ -1,0 +1,44 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+
+#include "benchmarks/bench.h"
+
+namespace {
+
+/// OpenBLAS reads these when it is loaded, and they slow CHOLMOD down: Ceres is to be measured at its best.
+void restart_without_openblas_settings(char** arguments) {
+  if (std::getenv("OPENBLAS_CORETYPE") == nullptr && std::getenv("OPENBLAS_L2_SIZE") == nullptr) return;
+  std::cerr << "OPENBLAS_CORETYPE and OPENBLAS_L2_SIZE are unset for this run\n";
+  unsetenv("OPENBLAS_CORETYPE");
+  unsetenv("OPENBLAS_L2_SIZE");
+  execv("/proc/self/exe", arguments);
+}
+
+}  // namespace
+
+int main(int argument_count, char** arguments) {
+  restart_without_openblas_settings(arguments);
+  CLI::App app("Pliant's benchmarks: every claim is a ratio within one run");
+  app.require_subcommand(1);
+  pliant::bench::Options options;
+  const auto add_mode = [&](const char* name, const char* doc) {
+    auto* mode = app.add_subcommand(name, doc);
+    mode->add_option("--json", options.json, "Write the rows to this file");
+    mode->add_option("--only", options.only, "Measure only what has this in its name");
+    mode->add_flag("--quick", options.quick, "Fewer sizes and repetitions");
+    return mode;
+  };
+  const auto* solver = add_mode("solver", "Device solvers against Ceres on a frozen problem");
+  CLI11_PARSE(app, argument_count, arguments);
+  try {
+    if (solver->parsed()) return pliant::bench::run_solver_mode(options);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,86 @@
+#include "framework/problem/structure.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "framework/core/error.h"
+
+namespace pliant {
+
+// Plain pointers and counting sorts: this runs whenever constraints are chosen anew.
+NodeLists list_by_node(const Incidences& incidences, int node_count) {
+  NodeLists lists;
+  lists.starts.assign(static_cast<std::size_t>(node_count) + 1, 0);
+  int* starts = lists.starts.data();
+  for (const int node : incidences.nodes)
+    if (node >= 0) ++starts[node + 1];
+  for (int node = 0; node < node_count; ++node) starts[node + 1] += starts[node];
+  lists.entries.resize(static_cast<std::size_t>(starts[node_count]));
+  std::vector<int> next(lists.starts.begin(), lists.starts.end() - 1);
+  const int* node = incidences.nodes.data();
+  int* entries = lists.entries.data();
+  const auto instances = static_cast<int>(incidences.size());
+  for (int instance = 0; instance < instances; ++instance)
+    for (int slot = 0; slot < incidences.per_instance; ++slot, ++node)
+      if (*node >= 0) entries[next[static_cast<std::size_t>(*node)]++] = instance * max_influences + slot;
+  return lists;
+}
+
+BlockPattern find_blocks(const std::vector<const Incidences*>& incidences,
+                         const std::vector<const NodeLists*>& lists, int node_count) {
+  BlockPattern pattern;
+  pattern.starts.reserve(static_cast<std::size_t>(node_count) + 1);
+  pattern.columns.reserve(32 * static_cast<std::size_t>(node_count));
+  pattern.places.resize(lists.size());
+  for (std::size_t kind = 0; kind < lists.size(); ++kind)
+    pattern.places[kind].resize(lists[kind]->entries.size() *
+                                static_cast<std::size_t>(incidences[kind]->per_instance));
+  struct Found {
+    int row = -1;
+    int place = 0;
+  };
+  std::vector<Found> found(static_cast<std::size_t>(node_count));
+  for (int row = 0; row < node_count; ++row) {
+    const auto start = pattern.columns.size();
+    pattern.starts.push_back(static_cast<int>(start));
+    pattern.columns.push_back(row);
+    found[static_cast<std::size_t>(row)] = {row, 0};
+    for (std::size_t kind = 0; kind < lists.size(); ++kind) {
+      const int k = incidences[kind]->per_instance;
+      const int* entry = lists[kind]->entries.data() + lists[kind]->starts[static_cast<std::size_t>(row)];
+      const int* end = lists[kind]->entries.data() + lists[kind]->starts[static_cast<std::size_t>(row) + 1];
+      std::uint16_t* place = pattern.places[kind].data() + k * (entry - lists[kind]->entries.data());
+      for (; entry != end; ++entry) {
+        const int* node = incidences[kind]->nodes.data() + *entry / max_influences * k;
+        for (int slot = 0; slot < k; ++slot, ++node, ++place) {
+          if (*node < 0) continue;
+          Found& column = found[static_cast<std::size_t>(*node)];
+          if (column.row != row) {
+            column = {row, static_cast<int>(pattern.columns.size() - start)};
+            pattern.columns.push_back(*node);
+          }
+          *place = static_cast<std::uint16_t>(column.place);
+        }
+      }
+    }
+    if (pattern.columns.size() - start > std::numeric_limits<std::uint16_t>::max())
+      throw DataError(fmt::format("node {} is coupled with more than {} others", row,
+                                  std::numeric_limits<std::uint16_t>::max()));
+  }
+  pattern.starts.push_back(static_cast<int>(pattern.columns.size()));
+  return pattern;
+}
+
+Incidences edge_incidences(const DeformationGraph& graph) {
+  Incidences incidences{2, {}};
+  incidences.nodes.resize(2 * graph.edges.size());
+  int* node = incidences.nodes.data();
+  for (const auto& edge : graph.edges) {
+    *node++ = edge.from;
+    *node++ = edge.to;
+  }
+  return incidences;
+}
+
+}  // namespace pliant

@@ -1,0 +1,68 @@
+#include "framework/registration/scene.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "framework/core/error.h"
+#include "framework/geometry/depth_map.h"
+#include "framework/registration/stopwatch.h"
+
+namespace pliant {
+namespace {
+
+DepthMap make_depth_map(const RgbdFrame& frame, StageTimes& times) {
+  return timed(times, "surface", [&] { return DepthMap(frame); });
+}
+
+PointSet make_target_map(const FramePair& pair, const Method& method, Device& device, StageTimes& times) {
+  const DepthMap depth = make_depth_map(pair.target, times);
+  const auto filtered = method.filter->filter(device, depth);
+  return make_surface_map(device, filtered ? *filtered : depth, pair.camera);
+}
+
+Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const RgbdFrame& frame) {
+  const int width = frame.depth.width();
+  Surface surface{unflatten(set.points), unflatten(set.normals), {}, {}};
+  surface.pixels.reserve(pixels.size());
+  for (const int pixel : pixels) surface.pixels.emplace_back(pixel % width, pixel / width);
+  if (frame.color.empty()) return surface;
+  if (frame.color.width() != width || frame.color.height() != frame.depth.height())
+    throw std::invalid_argument("colour and depth differ in size");
+  surface.colors.reserve(pixels.size());
+  for (const int pixel : pixels) surface.colors.push_back(frame.color.data()[pixel]);
+  return surface;
+}
+
+}  // namespace
+
+Scene make_scene(const FramePair& pair, const Method& method, Device& device, std::uint64_t seed,
+                 StageTimes& times) {
+  // Enqueued first: the device makes the surfaces while the host finds the alignment.
+  const DepthMap depth = make_depth_map(pair.source, times);
+  const auto filtered = method.filter->filter(device, depth);
+  const PointSet map = make_surface_map(device, depth, pair.camera);
+  std::optional<PointSet> filtered_map;
+  if (filtered) filtered_map = make_surface_map(device, *filtered, pair.camera);
+  Target target(pair.camera, make_target_map(pair, method, device, times));
+
+  const Array<int> pixels(timed(times, "surface", [&] { return pixels_with_depth(depth); }));
+  if (pixels.empty()) throw DataError(pair.name + ": the source has no point");
+  const AlignmentResult alignment =
+      timed(times, "alignment", [&] { return method.alignment->align(pair, seed); });
+
+  const PointSet given = pick_points(device, map, pixels);
+  PointSet rest = pick_points(device, filtered ? *filtered_map : map, pixels, alignment.motion);
+  std::optional<PointSet> unfiltered;
+  if (filtered) unfiltered = pick_points(device, map, pixels, alignment.motion);
+  Surface as_given = read_surface(given, pixels.host(), pair.source);
+  Surface aligned = read_surface(rest, pixels.host(), pair.source);
+  return {pair,
+          alignment,
+          std::move(target),
+          std::move(as_given),
+          std::move(aligned),
+          std::move(rest),
+          std::move(unfiltered)};
+}
+
+}  // namespace pliant

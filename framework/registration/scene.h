@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "framework/device/device.h"
+#include "framework/geometry/frame.h"
+#include "framework/geometry/point_set.h"
+#include "framework/geometry/surface.h"
+#include "framework/registration/alignment.h"
+#include "framework/registration/method.h"
+#include "framework/registration/target.h"
+
+namespace pliant {
+
+/// What stays as it is while a pair is registered. All lists of points have the order of `source`.
+struct Scene {
+  const FramePair& pair;
+  AlignmentResult alignment;
+  Target target;    ///< filtered
+  Surface source;   ///< as given
+  Surface aligned;  ///< what is registered: the source, filtered, after the initial alignment
+  PointSet rest;    ///< `aligned` on the device
+  /// The source as given, after the initial alignment, on the device; none where no filter sets it apart
+  /// from `rest`.
+  std::optional<PointSet> unfiltered;
+};
+
+/// `pair` must outlive the scene. Adds to `times` what the host spent on each stage. Throws DataError when
+/// the source has no point.
+Scene make_scene(const FramePair& pair, const Method& method, Device& device, std::uint64_t seed,
+                 StageTimes& times);
+
+}  // namespace pliant

@@ -1,0 +1,109 @@
+// The quadtree of [thesis 4.3] as flat arrays over its cells: the four of level 1, the sixteen of level 2,
+// ..., within a level in Morton order, so that the parent of cell c is c / 4 one level up.
+//
+// centre: the point at the centre of a cell, or one of these; constant.
+#define VIRTUAL (-1)  // the cell has points, but none there
+#define EMPTY (-2)    // the cell has no point at all
+// state: the tree itself. A parent has been divided, its children are leaves or parents.
+#define ABSENT 0
+#define LEAF 1
+#define PARENT 2
+
+int cell_count(int level) { return 1 << (2 * level); }
+
+int first_cell(int level) { return (cell_count(level) - 4) / 3; }
+
+int every_second_bit(int code) {
+  int bits = code & 0x55555555;
+  bits = (bits | (bits >> 1)) & 0x33333333;
+  bits = (bits | (bits >> 2)) & 0x0f0f0f0f;
+  bits = (bits | (bits >> 4)) & 0x00ff00ff;
+  return (bits | (bits >> 8)) & 0x0000ffff;
+}
+
+// The pixels of a cell from .xy to before .zw; `root`: the root's corner (.xy) and side (.z) in the pixel
+// map.
+int4 cell_box(int level, int cell, int4 root) {
+  const int2 place = (int2)(every_second_bit(cell), every_second_bit(cell >> 1));
+  return (int4)(root.xy + ((root.z * place) >> level), root.xy + ((root.z * (place + 1)) >> level));
+}
+
+// Sums of a cell of the deepest level: its residuals that are known, and how many those are.
+kernel void sum_points(int level, int4 root, int2 size, global const int* points,
+                       global const float* residuals, global float2* totals) {
+  const int cell = get_global_id(0);
+  if (cell >= cell_count(level)) return;
+  const int4 box = cell_box(level, cell, root);
+  float2 sum = 0;
+  for (int v = max(box.y, 0); v < min(box.w, size.y); ++v)
+    for (int u = max(box.x, 0); u < min(box.z, size.x); ++u) {
+      const int point = points[v * size.x + u];
+      if (point >= 0 && residuals[point] >= 0) sum += (float2)(residuals[point], 1);
+    }
+  totals[first_cell(level) + cell] = sum;
+}
+
+kernel void sum_children(int level, global float2* totals) {
+  const int cell = get_global_id(0);
+  if (cell >= cell_count(level)) return;
+  global const float2* children = totals + first_cell(level + 1) + 4 * cell;
+  totals[first_cell(level) + cell] = children[0] + children[1] + children[2] + children[3];
+}
+
+// What there is at the centre of each cell of a level; `totals` counts every point. Level 1 becomes leaves.
+kernel void find_centres(int level, int4 root, int2 size, global const int* points,
+                         global const float2* totals, global int* centre, global int* state) {
+  const int cell = get_global_id(0);
+  if (cell >= cell_count(level)) return;
+  const int4 box = cell_box(level, cell, root);
+  const int2 pixel = (box.xy + box.zw) / 2;
+  const int at = first_cell(level) + cell;
+  int found = EMPTY;
+  if (totals[at].y > 0) {
+    const int is_inside = all(pixel >= 0) && all(pixel < size);
+    const int point = is_inside ? points[pixel.y * size.x + pixel.x] : -1;
+    found = point >= 0 ? point : VIRTUAL;
+  }
+  centre[at] = found;
+  state[at] = level == 1 && found != EMPTY ? LEAF : ABSENT;
+}
+
+int has_node_below(int child, global const int* centre) {
+  return centre[child] >= 0 || centre[child + 1] >= 0 || centre[child + 2] >= 0 || centre[child + 3] >= 0;
+}
+
+// [Alg. 2] for one level: divides the leaves whose mean residual lies above the threshold.
+kernel void refine(int level, float threshold, global const float2* totals, global const int* centre,
+                   global int* state) {
+  const int cell = get_global_id(0);
+  if (cell >= cell_count(level)) return;
+  const int at = first_cell(level) + cell;
+  const int child = first_cell(level + 1) + 4 * cell;
+  const float2 total = totals[at];
+  if (state[at] != LEAF || !(total.x > threshold * total.y)) return;
+  if (centre[at] >= 0 && !has_node_below(child, centre)) return;
+  state[at] = PARENT;
+  for (int i = child; i < child + 4; ++i) state[i] = centre[i] == EMPTY ? ABSENT : LEAF;
+}
+
+// [Alg. 3] for one level: takes the children back whose parent's mean residual lies below the threshold.
+kernel void collapse(int level, float threshold, global const float2* totals, global const int* centre,
+                     global int* state) {
+  const int cell = get_global_id(0);
+  if (cell >= cell_count(level)) return;
+  const int at = first_cell(level) + cell;
+  const int child = first_cell(level + 1) + 4 * cell;
+  const float2 total = totals[at];
+  if (state[at] != PARENT || !(total.x < threshold * total.y)) return;
+  if (centre[at] < 0 && has_node_below(child, centre)) return;
+  for (int i = child; i < child + 4; ++i)
+    if (state[i] == PARENT) return;
+  state[at] = LEAF;
+  for (int i = child; i < child + 4; ++i) state[i] = ABSENT;
+}
+
+// Raises the flag of every point that is the node of a leaf.
+kernel void mark_nodes(int cells, global const int* centre, global const int* state, global int* flags) {
+  const int at = get_global_id(0);
+  if (at < cells && state[at] == LEAF && centre[at] >= 0) flags[centre[at]] = 1;
+}

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "framework/core/registry.h"
+#include "framework/deformation/graph_builder.h"
+
+namespace pliant {
+
+/// A quadtree over the projection of the source, whose leaves are the nodes of the graph [thesis 4.3].
+///
+/// The root is the square around the bounding box of the projection; level l divides it into 4^l cells. A
+/// leaf has its node at the point seen at the centre of its cell. A leaf with points, but none there, is
+/// virtual: it has no node, and the tree may grow in it. (The thesis has virtual nodes on the first two
+/// levels only; deeper down such a cell would be lost with all its points.) A cell is never divided, nor its
+/// children taken back, where that would take away nodes and give none.
+class QuadtreeGraph : public GraphBuilder {
+ public:
+  struct Settings {
+    int levels = 6;                 ///< deepest level; fewer where a cell would be smaller than a pixel
+    int initial_levels = 3;         ///< of the tree to begin with; collapsing never goes above
+    double refine_threshold = 2;    ///< mm of mean residual in a cell
+    double collapse_threshold = 1;  ///< mm, below refine_threshold
+  };
+
+  /// Throws ConfigError for settings that contradict each other.
+  explicit QuadtreeGraph(const Settings& settings);
+
+  /// The tree of `initial_levels` [Alg. 1]; adapting it refines top-down [Alg. 2], then collapses bottom-up
+  /// [Alg. 3].
+  std::unique_ptr<NodeSelection> select_nodes(Device& device, const Surface& source,
+                                              const Camera& camera) const override;
+
+ private:
+  Settings settings_;
+};
+
+/// Adds the graph `quadtree`.
+void register_quadtree_graph(Registry& registry);
+
+}  // namespace pliant

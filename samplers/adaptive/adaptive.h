@@ -1,0 +1,30 @@
+#pragma once
+
+#include "framework/core/registry.h"
+#include "framework/registration/sampler.h"
+
+namespace pliant {
+
+/// Constrains many points where the surface does not fit yet and few where it does [thesis 4.5].
+///
+/// An n x n mask moves in steps of n over the image. At first its centre is constrained, where there is a
+/// point. Then, with E the mean of the residuals known in it: above the threshold all of its points; down to
+/// half the threshold n points spread evenly (one in each column and row); below, or where no residual is
+/// known, its centre.
+class AdaptiveSampler : public ConstraintSampler {
+ public:
+  /// `step`: n, pixels; `threshold` in mm.
+  AdaptiveSampler(int step, double threshold);
+
+  std::unique_ptr<PointSelection> select(Device& device, const Surface& source,
+                                         const Camera& camera) const override;
+
+ private:
+  int step_;
+  float threshold_;
+};
+
+/// Adds the sampler `adaptive`.
+void register_adaptive_sampler(Registry& registry);
+
+}  // namespace pliant

@@ -1,0 +1,41 @@
+// One energy per node, for sixteen nodes at once: compiled after its equation.h over float16. TERM(x) names
+// the functions after the energy, ROWS is the length of its residual.
+
+// Adds weight * J^T J to the packed lower triangle and weight * J^T r to the gradient, both in the order
+// 4 axis + c.
+void TERM(add)(const float16* u, float16 weight, float16* packed, float16* gradient) {
+  float16 r[ROWS], J[12 * ROWS];
+  NAME_RESIDUAL(u, u, r);
+  NAME_JACOBIAN(u, u, J);
+  int entry = 0;
+  for (int m = 0; m < 12; ++m) {
+    const int at_m = COLUMNWISE(m);
+    float16 sum = 0;
+    for (int row = 0; row < ROWS; ++row) sum += J[12 * row + at_m] * r[row];
+    gradient[m] += weight * sum;
+    for (int n = 0; n <= m; ++n, ++entry) {
+      const int at_n = COLUMNWISE(n);
+      float16 product = 0;
+      for (int row = 0; row < ROWS; ++row) product += J[12 * row + at_m] * J[12 * row + at_n];
+      packed[entry] += weight * product;
+    }
+  }
+}
+
+// Energy at v less energy at u, without losing the digits of a small difference.
+float16 TERM(change)(const float16* u, const float16* v, float16 weight) {
+  float16 before[ROWS], after[ROWS];
+  NAME_RESIDUAL(u, u, before);
+  NAME_RESIDUAL(v, v, after);
+  float16 sum = 0;
+  for (int row = 0; row < ROWS; ++row) sum += (after[row] - before[row]) * (after[row] + before[row]);
+  return weight * sum;
+}
+
+float16 TERM(energy)(const float16* u, float16 weight) {
+  float16 r[ROWS];
+  NAME_RESIDUAL(u, u, r);
+  float16 sum = 0;
+  for (int row = 0; row < ROWS; ++row) sum += r[row] * r[row];
+  return weight * sum;
+}

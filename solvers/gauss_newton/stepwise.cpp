@@ -1,0 +1,70 @@
+#include "solvers/gauss_newton/stepwise.h"
+
+#include "solvers/gauss_newton/stepwise.cl.embed.h"
+
+namespace pliant {
+namespace {
+
+class StepwiseCourse : public Course {
+ public:
+  StepwiseCourse(Problem& problem, Device& device, const CourseOptions& options, std::string linear_solver,
+                 const MakeStepSolver& make)
+      : problem_(problem),
+        device_(device),
+        options_(options),
+        linear_solver_(std::move(linear_solver)),
+        equations_(device, problem),
+        step_solver_(make(equations_)),
+        trial_(device.allocate(sizeof(float) * problem.unknowns().size())) {}
+
+  void enqueue(const cl::Buffer& status) override {
+    auto begin = kernel("begin");
+    equations_.sum_energy(problem_.unknowns().device(device_), status);
+    device_.run("energy", begin, 1, 1, status, equations_.energy_partials(),
+                equations_.energy_partial_count(), options_.damping);
+    for (int i = 0; i < options_.max_iterations; ++i) iterate(status);
+  }
+
+  std::string description() const override { return linear_solver_; }
+
+ private:
+  cl::Kernel kernel(const char* name) {
+    return device_.kernel(embedded::solvers_gauss_newton_stepwise_cl, name);
+  }
+
+  void iterate(const cl::Buffer& status) {
+    auto try_step = kernel("try_step");
+    auto decide = kernel("decide");
+    auto accept = kernel("accept");
+    auto end_iteration = kernel("end_iteration");
+    const auto count = problem_.unknowns().size();
+    equations_.assemble(status);
+    step_solver_->solve(status);
+    device_.run("solver", try_step, count, 64, status, static_cast<cl_int>(count),
+                problem_.unknowns().device(device_), step_solver_->step(), trial_);
+    equations_.sum_energy(trial_, status);
+    device_.run("energy", decide, 1, 1, status, equations_.energy_partials(),
+                equations_.energy_partial_count(), options_.max_iterations, options_.tolerance,
+                options_.damping);
+    device_.run("solver", accept, count, 64, status, static_cast<cl_int>(count), trial_,
+                problem_.unknowns().write_device(device_));
+    device_.run("solver", end_iteration, 1, 1, status);
+  }
+
+  Problem& problem_;
+  Device& device_;
+  CourseOptions options_;
+  std::string linear_solver_;
+  NormalEquations equations_;
+  std::unique_ptr<StepSolver> step_solver_;
+  cl::Buffer trial_;
+};
+
+}  // namespace
+
+std::unique_ptr<Course> make_stepwise_course(Problem& problem, Device& device, const CourseOptions& options,
+                                             const std::string& linear_solver, const MakeStepSolver& make) {
+  return std::make_unique<StepwiseCourse>(problem, device, options, linear_solver, make);
+}
+
+}  // namespace pliant

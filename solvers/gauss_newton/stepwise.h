@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "framework/problem/normal_equations.h"
+#include "solvers/gauss_newton/linear_solver.h"
+
+namespace pliant {
+
+/// Solves one assembled system after another.
+class StepSolver {
+ public:
+  virtual ~StepSolver() = default;
+  /// Enqueues the solution of the damped system into step(); sets status_bad_pivot when there is none.
+  virtual void solve(const cl::Buffer& status) = 0;
+  /// affine_size floats a node.
+  virtual const cl::Buffer& step() const = 0;
+};
+using MakeStepSolver = std::function<std::unique_ptr<StepSolver>(NormalEquations&)>;
+
+/// Gauss-Newton over assembled 12x12 blocks, kernel by kernel: for any energy.
+std::unique_ptr<Course> make_stepwise_course(Problem& problem, Device& device, const CourseOptions& options,
+                                             const std::string& linear_solver, const MakeStepSolver& make);
+
+}  // namespace pliant

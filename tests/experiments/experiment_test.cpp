@@ -1,0 +1,82 @@
+#include "experiments/runner/experiment.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/experiments/experiment_files.h"
+
+namespace pliant::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class ExperimentTest : public ExperimentFiles {
+ protected:
+  std::string error(const std::string& text) const {
+    try {
+      plan(text);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+std::vector<std::string> run_names(const ExperimentPlan& plan) {
+  std::vector<std::string> names;
+  for (const auto& run : plan.runs) names.push_back(run.name);
+  return names;
+}
+
+TEST_F(ExperimentTest, WithoutRunsItIsOneRunNamedAfterTheFile) {
+  const ExperimentPlan made = plan("");
+  EXPECT_EQ(made.name, "small");
+  EXPECT_THAT(run_names(made), ElementsAre("small"));
+  EXPECT_EQ(made.experiment.to_json().at("name"), "small");
+  EXPECT_EQ(made.experiment.to_json().begin().key(), "name");
+}
+
+TEST_F(ExperimentTest, ItsOwnNameGoesBeforeTheFile) {
+  EXPECT_EQ(plan("name: bent").name, "bent");
+  EXPECT_THAT(run_names(plan("name: bent")), ElementsAre("bent"));
+}
+
+TEST_F(ExperimentTest, RunsAreTheWholeExperimentWithTheirValuesLaidOver) {
+  const ExperimentPlan made = plan("runs: {fine: {sampler: {step: 2}}, other: {seed: 7}}");
+  EXPECT_THAT(run_names(made), ElementsAre("fine", "other"));
+  EXPECT_EQ(made.runs[0].values.section("sampler").integer("step"), 2);
+  EXPECT_EQ(made.runs[0].values.integer("seed"), 1);
+  EXPECT_EQ(made.runs[1].values.section("sampler").integer("step"), 4);
+  EXPECT_EQ(made.runs[1].values.integer("seed"), 7);
+}
+
+TEST_F(ExperimentTest, QuickRunsAreThoseListed) {
+  ExperimentPlan made = plan("runs: {a: , b: , c: }\nquick: [c, a]");
+  made.keep_quick_runs();
+  EXPECT_THAT(run_names(made), ElementsAre("a", "c"));
+  ExperimentPlan all = plan("runs: {a: , b: }");
+  all.keep_quick_runs();
+  EXPECT_THAT(run_names(all), ElementsAre("a", "b"));
+}
+
+TEST_F(ExperimentTest, QuickRunThatIsNoneIsAnError) {
+  EXPECT_THAT(error("runs: {alpha: , b: }\nquick: [alpa]"),
+              HasSubstr("'quick' lists 'alpa', which is no run; expected alpha, b; did you mean 'alpha'?"));
+}
+
+TEST_F(ExperimentTest, NamesThatCannotNameAFolderAreErrors) {
+  EXPECT_THAT(error("runs: {../up: }"), HasSubstr("the run's name '../up' cannot name a folder"));
+  EXPECT_THAT(error("name: a/b"), HasSubstr("the experiment's name 'a/b' cannot name a folder"));
+}
+
+TEST_F(ExperimentTest, ExperimentsThatComeWithTheProjectAreGood) {
+  for (const char* name : {"sheet", "quickstart", "compare_solvers"}) {
+    const ConfigSource source{std::string(PLIANT_EXPERIMENTS) + "/" + name + ".yaml", {}, {}, {}};
+    const ExperimentPlan made = plan_experiment(source, registry_);
+    EXPECT_EQ(made.name, name);
+    EXPECT_FALSE(made.runs.empty());
+  }
+}
+
+}  // namespace
+}  // namespace pliant::testing

@@ -1,0 +1,183 @@
+#include "experiments/runner/runner.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "experiments/runner/result_json.h"
+#include "tests/experiments/experiment_files.h"
+
+namespace pliant::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using ::testing::ElementsAre;
+using ::testing::IsSupersetOf;
+
+class RunnerTest : public ExperimentFiles {
+ protected:
+  ordered_json run(const ExperimentPlan& plan, const std::string& folder) {
+    records_ = run_experiment(plan, file(folder), workbench_);
+    return ordered_json::parse(text_of(folder + "/result.json"));
+  }
+
+  std::set<std::string> files_of(const std::string& folder) const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(file(folder))) names.insert(entry.path().filename());
+    return names;
+  }
+
+  std::vector<RunRecord> records_;
+};
+
+std::vector<std::string> keys(const ordered_json& json) {
+  std::vector<std::string> names;
+  for (const auto& item : json.items()) names.push_back(item.key());
+  return names;
+}
+
+void drop_times(ordered_json& json) {
+  json["environment"].erase("date");
+  for (auto& run : json["runs"]) run.erase("time_ms");
+}
+
+TEST_F(RunnerTest, ResultHasTheKeysThatOthersRead) {
+  const ordered_json result = run(plan(""), "out");
+  EXPECT_THAT(keys(result), ElementsAre("schema", "experiment", "environment", "runs"));
+  EXPECT_EQ(result["schema"], 1);
+  EXPECT_THAT(keys(result["environment"]),
+              IsSupersetOf({"version", "commit", "device", "opencl_driver", "libraries", "seed"}));
+  ASSERT_EQ(result["runs"].size(), 1U);
+  const ordered_json& entry = result["runs"][0];
+  EXPECT_THAT(keys(entry),
+              ElementsAre("name", "counts", "metrics", "initial", "aligned", "energy", "time_ms", "solver"));
+  EXPECT_THAT(keys(entry["counts"]), ElementsAre("source_points", "nodes", "edges", "constraints", "unknowns",
+                                                 "outer_iterations", "solver_iterations"));
+  for (const char* stage : {"metrics", "initial", "aligned"})
+    EXPECT_THAT(keys(entry[stage]),
+                ElementsAre("residual_mean", "residual_sd", "coverage", "nearest_mean", "nearest_sd",
+                            "epe_mean", "epe_sd", "epe_p95", "epe_moving_mean"));
+  EXPECT_THAT(keys(entry["energy"]), ElementsAre("initial", "final", "per_iteration"));
+  EXPECT_EQ(entry["time_ms"].begin().key(), "total");
+  EXPECT_THAT(keys(entry["solver"]), ElementsAre("name", "linear_solver", "termination"));
+}
+
+TEST_F(RunnerTest, ResultSaysWhatTheRegistrationCameTo) {
+  const ordered_json entry = run(plan(""), "out")["runs"][0];
+  const RegistrationResult& made = records_.at(0).result;
+  EXPECT_EQ(entry["counts"]["source_points"], made.source.size());
+  EXPECT_EQ(entry["counts"]["unknowns"], 12 * entry["counts"]["nodes"].get<int>());
+  EXPECT_EQ(entry["energy"]["per_iteration"].size(), entry["counts"]["outer_iterations"]);
+  EXPECT_LT(entry["metrics"]["epe_mean"], 0.5 * entry["initial"]["epe_mean"].get<double>());
+  EXPECT_EQ(entry["solver"]["name"], "gauss_newton");
+}
+
+TEST_F(RunnerTest, TwoRunsGiveTheSameBits) {
+  ordered_json first = run(plan("data: {noise: 1}"), "first");
+  Workbench fresh(registry_);
+  run_experiment(plan("data: {noise: 1}"), file("second"), fresh);
+  ordered_json second = ordered_json::parse(text_of("second/result.json"));
+  drop_times(first);
+  drop_times(second);
+  EXPECT_EQ(first.dump(), second.dump());
+  EXPECT_EQ(text_of("first/registered.ply"), text_of("second/registered.ply"));
+}
+
+TEST_F(RunnerTest, AnotherSeedGivesOtherNoise) {
+  const ordered_json one = run(plan("data: {noise: 1}"), "one");
+  const ordered_json two = run(plan("data: {noise: 1}\nseed: 2"), "two");
+  EXPECT_NE(one["runs"][0]["metrics"], two["runs"][0]["metrics"]);
+}
+
+TEST_F(RunnerTest, ASingleRunIsWrittenAtTheTop) {
+  run(plan(""), "out");
+  EXPECT_THAT(files_of("out"), IsSupersetOf({"result.json", "experiment.yaml", "source.ply", "target.ply",
+                                             "registered.ply", "index.html", "error_final.png"}));
+}
+
+TEST_F(RunnerTest, SeveralRunsGetAFolderEachAndAPageOverAll) {
+  const ordered_json result = run(plan("runs: {coarse: {graph: {spacing: 14}}, fine: }"), "out");
+  EXPECT_EQ(files_of("out"),
+            (std::set<std::string>{"result.json", "experiment.yaml", "index.html", "coarse", "fine"}));
+  EXPECT_TRUE(files_of("out/fine").contains("registered.ply"));
+  ASSERT_EQ(result["runs"].size(), 2U);
+  EXPECT_EQ(result["runs"][0]["name"], "coarse");
+  EXPECT_LT(result["runs"][0]["counts"]["nodes"], result["runs"][1]["counts"]["nodes"]);
+  EXPECT_NE(text_of("out/index.html").find("coarse/index.html"), std::string::npos);
+}
+
+TEST_F(RunnerTest, ReportsAreThoseOfTheExperiment) {
+  write("bare.yaml",
+        "data: {type: synthetic_sheet, image_width: 80, image_height: 60, focal_length: 65.6}\n"
+        "graph: {spacing: 8}\n"
+        "energies: {rotation: , regularization: , constraint: }\n"
+        "stopping: {max_iterations: 1}\n");
+  const ExperimentPlan bare = plan_experiment({file("bare.yaml"), {}, {}, {}}, registry_);
+  run(bare, "bare");
+  EXPECT_EQ(files_of("bare"), (std::set<std::string>{"result.json", "experiment.yaml"}));
+  EXPECT_EQ(run_table(bare, records_).rows.at(0).link, "");  // there is no page to lead to
+  const ExperimentPlan whole = plan("");
+  run(whole, "whole");
+  EXPECT_EQ(run_table(whole, records_, "sub").rows.at(0).link, "sub/index.html");
+}
+
+TEST_F(RunnerTest, TheExperimentBesideTheResultsGivesTheSameResults) {
+  ordered_json first = run(plan("runs: {a: {seed: 3}}\nname: again"), "first");
+  const ExperimentPlan again = plan_experiment({file("first/experiment.yaml"), {}, {}, {}}, registry_);
+  EXPECT_EQ(again.experiment.to_json(), first["experiment"]);
+  ordered_json second = run(again, "second");
+  drop_times(first);
+  drop_times(second);
+  EXPECT_EQ(first, second);
+}
+
+TEST_F(RunnerTest, DataIsLoadedOnceForRunsThatShareIt) {
+  const ExperimentPlan made = plan("runs: {a: , b: {sampler: {step: 3}}, c: {seed: 2}}");
+  const FramePair* shared = &workbench_.pair(made.runs[0].values);
+  EXPECT_EQ(shared, &workbench_.pair(made.runs[1].values));
+  EXPECT_NE(shared, &workbench_.pair(made.runs[2].values));
+}
+
+TEST_F(RunnerTest, ProgressIsToldUnderTheNameOfTheRun) {
+  std::set<std::string> names;
+  double last = 0;
+  run_experiment(plan("name: mine"), file("out"), workbench_, [&](const Progress& step) {
+    names.insert(step.what);
+    last = step.done;
+  });
+  EXPECT_EQ(names, std::set<std::string>{"mine"});
+  EXPECT_EQ(last, 1);
+}
+
+TEST_F(RunnerTest, CheckingMakesNoFile) {
+  check_experiment(plan(""), workbench_);
+  EXPECT_FALSE(fs::exists(file("out")));
+}
+
+TEST_F(RunnerTest, AFolderThatCannotBeMadeIsADataError) {
+  write("taken", "a file");
+  EXPECT_THROW(run_experiment(plan(""), file("taken"), workbench_), DataError);
+  EXPECT_THROW(run_experiment(plan(""), file("taken") + "/below", workbench_), DataError);
+}
+
+TEST_F(RunnerTest, AComponentCombinationWithoutSenseIsAConfigError) {
+  EXPECT_THROW(check_experiment(plan("graph: {nodes: 50}"), workbench_), ConfigError);
+}
+
+TEST_F(RunnerTest, JsonWithoutFiniteNumbersIsNotWritten) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const ordered_json bad = {{"runs", {{{"metrics", {{"epe_mean", nan}}}}}}};
+  try {
+    write_json(file("bad.json"), bad);
+    FAIL() << "NaN was written";
+  } catch (const NumericalError& error) {
+    EXPECT_STREQ(error.what(), "runs[0].metrics.epe_mean is nan; there is no finite answer");
+  }
+  EXPECT_FALSE(fs::exists(file("bad.json")));
+}
+
+}  // namespace
+}  // namespace pliant::testing

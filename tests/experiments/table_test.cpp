@@ -1,0 +1,29 @@
+#include "experiments/runner/table.h"
+
+#include <gmock/gmock.h>
+
+namespace pliant::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const Table table{"sheet", {"run", "EPE mm"}, {{{"a<b", "0.86"}, "sheet/index.html"}, {{"longer", "12.50"}}}};
+
+TEST(Table, TextAlignsNamesLeftAndNumbersRight) {
+  EXPECT_EQ(to_text(table),
+            "sheet\n"
+            "run     EPE mm\n"
+            "a<b       0.86\n"
+            "longer   12.50\n");
+}
+
+TEST(Table, PageEscapesNamesAndLinksThemWhereTheyLead) {
+  const std::string page = make_overview_page("All", "of it", {table});
+  EXPECT_THAT(page, HasSubstr("<td><a href=\"sheet/index.html\">a&lt;b</a></td><td>0.86</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>longer</td><td>12.50</td>"));
+  EXPECT_THAT(page, Not(HasSubstr("a<b")));
+}
+
+}  // namespace
+}  // namespace pliant::testing

@@ -1,0 +1,101 @@
+#include "framework/geometry/bilateral.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "framework/core/registry.h"
+#include "tests/geometry/made_depth.h"
+
+namespace pliant {
+namespace {
+
+const Camera kCamera{300, 290, 84.5, 40, 165, 83};
+
+DepthImage filtered(const BilateralFilter& filter, const RgbdFrame& frame) {
+  Device device;
+  return to_image(*filter.filter(device, DepthMap(frame)));
+}
+
+/// Largest difference in mm; infinite where only one of both has depth.
+double difference(const DepthImage& a, const DepthImage& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if ((a.pixels()[i] > 0) != (b.pixels()[i] > 0)) return std::numeric_limits<double>::infinity();
+    worst = std::max<double>(worst, std::abs(a.pixels()[i] - b.pixels()[i]));
+  }
+  return worst;
+}
+
+TEST(Bilateral, AgreesWithTheReference) {
+  const RgbdFrame frame = made_depth(kCamera);
+  for (const auto& filter :
+       {BilateralFilter(4.5, 30, 6), BilateralFilter(1, 3, 2), BilateralFilter(20, 500, max_window_radius)}) {
+    EXPECT_LT(difference(filtered(filter, frame), filter.filter_reference(frame.depth)), 5e-3);
+  }
+}
+
+TEST(Bilateral, AgreesWithTheReferenceOnAnImageSmallerThanItsWindow) {
+  const RgbdFrame frame = made_depth(Camera{300, 290, 2, 1, 5, 3});
+  const BilateralFilter filter(4.5, 30, 6);
+  EXPECT_LT(difference(filtered(filter, frame), filter.filter_reference(frame.depth)), 5e-3);
+}
+
+TEST(Bilateral, TakesOutNoiseAndKeepsSteps) {
+  const DepthImage smooth = filtered(BilateralFilter(4.5, 30, 6), made_depth(kCamera));
+  const DepthImage truth = made_depth(kCamera, 0).depth;
+  const DepthImage noisy = made_depth(kCamera).depth;
+  const auto mean_error = [&](const DepthImage& image, int first, int last) {
+    double sum = 0;
+    int count = 0;
+    for (int v = 0; v < image.height(); ++v) {
+      for (int u = first; u < last; ++u) {
+        if (image(u, v) > 0) sum += std::abs(image(u, v) - truth(u, v)), ++count;
+      }
+    }
+    return sum / count;
+  };
+  EXPECT_LT(mean_error(smooth, 0, kCamera.width), 0.5 * mean_error(noisy, 0, kCamera.width));
+  const int step = 2 * kCamera.width / 3;
+  EXPECT_LT(mean_error(smooth, step - 2, step + 3), 5) << "a plain mean is out by a third of the 250 mm";
+}
+
+TEST(Bilateral, PixelsWithoutDepthTakeNoPart) {
+  RgbdFrame frame{DepthImage(40, 30, 800), {}, MaskImage(40, 30, 1)};
+  frame.depth(10, 10) = 0;
+  frame.depth(12, 10) = std::nanf("");
+  frame.depth(14, 10) = 790;
+  frame.mask(14, 10) = 0;
+  const DepthImage smooth = filtered(BilateralFilter(4.5, 30, 6), frame);
+  for (int v = 0; v < 30; ++v) {
+    for (int u = 0; u < 40; ++u) {
+      const bool is_out = v == 10 && (u == 10 || u == 12 || u == 14);
+      EXPECT_EQ(smooth(u, v), is_out ? 0.0F : 800.0F) << u << ' ' << v;
+    }
+  }
+}
+
+TEST(Bilateral, GivesTheSameBitsTwice) {
+  const RgbdFrame frame = made_depth(kCamera);
+  const BilateralFilter filter(4.5, 30, 6);
+  EXPECT_EQ(filtered(filter, frame).pixels(), filtered(filter, frame).pixels());
+}
+
+TEST(Bilateral, IsMadeByName) {
+  Registry registry;
+  register_filters(registry);
+  Device device;
+  const DepthMap map(made_depth(kCamera));
+  const auto none = registry.make<DepthFilter>(Parameters("none", {}));
+  EXPECT_FALSE(none->filter(device, map).has_value());
+  const Parameters bilateral("bilateral",
+                             {{"sigma_space", 4.5}, {"sigma_depth", 30.0}, {"radius", std::int64_t{6}}});
+  const auto filter = registry.make<DepthFilter>(bilateral)->filter(device, map);
+  ASSERT_TRUE(filter.has_value());
+  EXPECT_EQ(to_image(*filter).pixels(), filtered(BilateralFilter(4.5, 30, 6), made_depth(kCamera)).pixels());
+}
+
+}  // namespace
+}  // namespace pliant

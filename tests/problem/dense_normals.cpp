@@ -1,0 +1,116 @@
+#include "tests/problem/dense_normals.h"
+
+#include <array>
+#include <numeric>
+
+#include "framework/deformation/warp.h"
+
+namespace pliant::test {
+namespace {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// d u / d (unknowns of the node in `slot`).
+Eigen::MatrixXd inner_derivative(const Problem& problem, const Term& term, std::size_t instance, int slot) {
+  Eigen::MatrixXd inner = Eigen::MatrixXd::Zero(input_size(term.energy.stencil), affine_size);
+  if (!term.constraints) {
+    inner.middleRows(affine_size * slot, affine_size).setIdentity();
+    return inner;
+  }
+  const auto& influences = term.constraints->influences;
+  const auto entry =
+      instance * static_cast<std::size_t>(influences.per_point) + static_cast<std::size_t>(slot);
+  const Eigen::Vector3d point =
+      Eigen::Map<const Eigen::Vector3f>(term.constraints->points.host().data() + 3 * instance).cast<double>();
+  const auto node = static_cast<std::size_t>(influences.nodes.host()[entry]);
+  const double weight = influences.weights.host()[entry];
+  Eigen::Vector4d arm;
+  arm << point - problem.graph().nodes[node].cast<double>(), 1;
+  for (int column = 0; column < 4; ++column)
+    inner.middleCols<3>(3 * column) = weight * arm[column] * Eigen::Matrix3d::Identity();
+  return inner;
+}
+
+void add_instance(const Problem& problem, const Term& term, std::size_t instance, const double* unknowns,
+                  DenseNormals& normals) {
+  const double confidence = term.constraints ? term.constraints->confidence.host()[instance] : 1.0;
+  if (confidence <= 0) return;
+  std::array<double, max_stencil_inputs> u{};
+  std::array<double, max_stencil_data> data{};
+  gather_instance(problem, term, instance, unknowns, u.data(), data.data());
+  Eigen::VectorXd r(term.energy.residuals);
+  Matrix outer(term.energy.residuals, input_size(term.energy.stencil));
+  term.energy.equation.residual(u.data(), data.data(), r.data());
+  term.energy.equation.jacobian(u.data(), data.data(), outer.data());
+
+  const auto nodes = coupled_nodes(problem, term, instance);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(term.energy.residuals, problem.unknown_count());
+  for (std::size_t slot = 0; slot < nodes.size(); ++slot)
+    J.middleCols(affine_size * nodes[slot], affine_size) +=
+        outer * inner_derivative(problem, term, instance, static_cast<int>(slot));
+  const double factor = problem.effective_weight(term) * confidence;
+  for (const int a : nodes) {
+    const auto left = J.middleCols(affine_size * a, affine_size).transpose();
+    normals.gradient.segment(affine_size * a, affine_size) += factor * left * r;
+    for (const int b : nodes)
+      normals.matrix.block(affine_size * a, affine_size * b, affine_size, affine_size) +=
+          factor * left * J.middleCols(affine_size * b, affine_size);
+  }
+}
+
+std::vector<float> read(Device& device, const cl::Buffer& buffer, std::size_t count) {
+  std::vector<float> values(count);
+  device.read(buffer, values.data(), sizeof(float) * count);
+  return values;
+}
+
+}  // namespace
+
+DenseNormals dense_normals(const Problem& problem) {
+  const auto size = problem.unknown_count();
+  DenseNormals normals{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+  const auto& values = problem.unknowns().host();
+  const std::vector<double> unknowns(values.begin(), values.end());
+  for (const auto& term : problem.terms())
+    for (std::size_t i = 0; i < instance_count(problem, term); ++i)
+      add_instance(problem, term, i, unknowns.data(), normals);
+  return normals;
+}
+
+DenseNormals device_normals(NormalEquations& equations) {
+  auto& device = equations.device();
+  equations.assemble(make_status(device));
+  const auto size = affine_size * equations.node_count();
+  const auto blocks = read(device, equations.blocks(), 144 * equations.block_rows().size());
+  const auto gradient = read(device, equations.gradient(), static_cast<std::size_t>(size));
+  DenseNormals normals{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+  for (std::size_t pair = 0; pair < equations.block_rows().size(); ++pair) {
+    const int row = affine_size * equations.block_rows().host()[pair];
+    const int column = affine_size * equations.block_columns().host()[pair];
+    const Eigen::MatrixXd block =
+        Eigen::Map<const Eigen::Matrix<float, affine_size, affine_size, Eigen::RowMajor>>(blocks.data() +
+                                                                                          144 * pair)
+            .cast<double>();
+    normals.matrix.block(column, row, affine_size, affine_size) = block.transpose();
+    normals.matrix.block(row, column, affine_size, affine_size) = block;
+  }
+  for (int i = 0; i < size; ++i) normals.gradient[i] = gradient[static_cast<std::size_t>(i)];
+  return normals;
+}
+
+double device_energy(NormalEquations& equations, const Problem& problem) {
+  auto& device = equations.device();
+  equations.sum_energy(problem.unknowns().device(device), make_status(device));
+  const auto partials =
+      read(device, equations.energy_partials(), static_cast<std::size_t>(equations.energy_partial_count()));
+  return std::accumulate(partials.begin(), partials.end(), 0.0);
+}
+
+cl::Buffer make_status(Device& device) {
+  constexpr std::size_t bytes = 4096;  // more words than any solver keeps
+  auto status = device.allocate(bytes);
+  device.fill_zero(status, bytes);
+  return status;
+}
+
+}  // namespace pliant::test

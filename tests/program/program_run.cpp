@@ -1,0 +1,33 @@
+#include "tests/program/program_run.h"
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <sstream>
+
+namespace pliant::testing {
+
+std::vector<std::string> ProgramRun::errors() const {
+  std::vector<std::string> lines;
+  std::istringstream stream(err);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+ProgramRun ProgramTest::call(const std::string& arguments, const std::string& environment) const {
+  const std::string command = "cd '" + file("") + "' && " + environment + " '" PLIANT_PROGRAM "' " +
+                              arguments + " >stdout.txt 2>stderr.txt </dev/null";
+  const int status = std::system(command.c_str());
+  ProgramRun run;
+  if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
+  run.out = text_of("stdout.txt");
+  run.err = text_of("stderr.txt");
+  return run;
+}
+
+std::string ProgramTest::text_of(const std::string& name) const {
+  const auto bytes = read_file(file(name));
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace pliant::testing

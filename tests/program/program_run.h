@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/io/test_files.h"
+
+namespace pliant::testing {
+
+/// What came of one call of the program.
+struct ProgramRun {
+  int exit_code = -1;  ///< -1 when it did not end by itself, e.g. by a crash
+  std::string out;
+  std::string err;
+
+  /// The lines on stderr.
+  std::vector<std::string> errors() const;
+};
+
+/// Calls the program itself, as a shell would.
+class ProgramTest : public TestFiles {
+ protected:
+  /// `arguments` as words of a shell; `environment` like "NAME=value", before it. In the test's folder.
+  ProgramRun call(const std::string& arguments, const std::string& environment = "") const;
+
+  std::string text_of(const std::string& name) const;
+};
+
+}  // namespace pliant::testing

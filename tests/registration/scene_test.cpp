@@ -1,0 +1,107 @@
+#include "framework/registration/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "framework/core/error.h"
+#include "framework/geometry/bilateral.h"
+#include "tests/geometry/made_depth.h"
+
+namespace pliant {
+namespace {
+
+const Camera kCamera{300, 290, 84.5, 40, 165, 83};
+
+class QuarterTurn : public Alignment {
+ public:
+  AlignmentResult align(const FramePair&, std::uint64_t) const override {
+    AlignmentResult result;
+    result.motion = Eigen::Translation3d(1, 2, 3) *
+                    Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
+    return result;
+  }
+};
+
+class Unfiltered : public DepthFilter {
+ public:
+  std::optional<DepthMap> filter(Device&, const DepthMap&) const override { return std::nullopt; }
+};
+
+Method method_with(std::unique_ptr<DepthFilter> filter) {
+  Method method;
+  method.filter = std::move(filter);
+  method.alignment = std::make_unique<QuarterTurn>();
+  return method;
+}
+
+FramePair made_pair() {
+  FramePair pair{"made", kCamera, made_depth(kCamera), made_depth(kCamera, 0), {}};
+  pair.source.color = ColorImage(kCamera.width, kCamera.height);
+  for (int u = 0; u < kCamera.width; ++u) pair.source.color(u, 40) = {static_cast<std::uint8_t>(u), 1, 2};
+  return pair;
+}
+
+/// Largest distance between points of two lists, mm.
+double difference(const std::vector<Eigen::Vector3f>& a, const std::vector<Eigen::Vector3f>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    worst = std::max<double>(worst, (a[i] - b[i]).norm());
+  return worst;
+}
+
+std::vector<Eigen::Vector3f> turned(std::vector<Eigen::Vector3f> points) {
+  for (auto& point : points) point = Eigen::Vector3f(1 - point.y(), 2 + point.x(), 3 + point.z());
+  return points;
+}
+
+TEST(Scene, HoldsTheSurfacesOfThePair) {
+  Device device;
+  StageTimes times;
+  const FramePair pair = made_pair();
+  const Scene scene = make_scene(pair, method_with(std::make_unique<Unfiltered>()), device, 1, times);
+  const Surface expected = make_surface(make_surface_map(pair.source, kCamera), pair.source.color);
+  EXPECT_LT(difference(scene.source.points, expected.points), 1e-3);
+  EXPECT_LT(difference(scene.source.normals, expected.normals), 2e-3);
+  EXPECT_EQ(scene.source.pixels, expected.pixels);
+  EXPECT_EQ(scene.source.colors, expected.colors);
+  EXPECT_LT(difference(scene.aligned.points, turned(expected.points)), 1e-3);
+  EXPECT_EQ(scene.aligned.pixels, expected.pixels);
+  EXPECT_EQ(unflatten(scene.rest.points), scene.aligned.points);
+  EXPECT_EQ(unflatten(scene.rest.normals), scene.aligned.normals);
+  EXPECT_FALSE(scene.unfiltered.has_value());
+  const SurfaceMap target = make_surface_map(pair.target, kCamera);
+  EXPECT_LT(difference(unflatten(scene.target.points), target.points.pixels()), 1e-3);
+}
+
+TEST(Scene, FiltersWhatIsRegisteredAndKeepsWhatWasGiven) {
+  Device device;
+  StageTimes times;
+  FramePair pair = made_pair();
+  const BilateralFilter filter(4.5, 30, 6);
+  const Scene scene =
+      make_scene(pair, method_with(std::make_unique<BilateralFilter>(filter)), device, 1, times);
+  const Surface given = make_surface(make_surface_map(pair.source, kCamera), {});
+  pair.source.depth = filter.filter_reference(pair.source.depth);
+  pair.target.depth = filter.filter_reference(pair.target.depth);
+  const Surface smooth = make_surface(make_surface_map(pair.source, kCamera), {});
+  EXPECT_LT(difference(scene.source.points, given.points), 1e-3);
+  EXPECT_LT(difference(scene.aligned.points, turned(smooth.points)), 1e-2);
+  ASSERT_TRUE(scene.unfiltered.has_value());
+  EXPECT_LT(difference(unflatten(scene.unfiltered->points), turned(given.points)), 1e-3);
+  EXPECT_GT(difference(given.points, smooth.points), 1) << "the filter did something";
+  const SurfaceMap target = make_surface_map(pair.target, kCamera);
+  EXPECT_LT(difference(unflatten(scene.target.points), target.points.pixels()), 1e-2);
+}
+
+TEST(Scene, NeedsAPoint) {
+  Device device;
+  StageTimes times;
+  FramePair pair = made_pair();
+  pair.source.depth = DepthImage(kCamera.width, kCamera.height);
+  EXPECT_THROW(make_scene(pair, method_with(std::make_unique<Unfiltered>()), device, 1, times), DataError);
+}
+
+}  // namespace
+}  // namespace pliant
