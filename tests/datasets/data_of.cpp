@@ -1,0 +1,38 @@
+#include "tests/datasets/data_of.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "experiments/datasets/datasets.h"
+#include "framework/core/config.h"
+#include "framework/core/error.h"
+#include "framework/io/file.h"
+
+namespace pliant::testing {
+
+std::unique_ptr<DataSource> data_of(const std::string& section) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("pliant_data_" + std::to_string(::getpid()) + ".yaml");
+  const std::string text = "data: " + section + "\n";
+  write_file(path.string(), {text.begin(), text.end()});
+  Registry registry;
+  register_datasets(registry);
+  const Experiment experiment =
+      load_experiment({path, {}, {}}, {component("data", DataSource::kind)}, registry);
+  std::filesystem::remove(path);
+  return registry.make<DataSource>(experiment.values.section("data"));
+}
+
+std::string config_error_of(const std::string& section) {
+  try {
+    data_of(section);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no ConfigError for " << section;
+  return "";
+}
+
+}  // namespace pliant::testing

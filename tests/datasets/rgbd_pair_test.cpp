@@ -1,0 +1,159 @@
+#include "experiments/datasets/rgbd_pair.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "framework/io/images.h"
+#include "framework/io/scene_flow.h"
+#include "tests/datasets/data_of.h"
+#include "tests/io/test_files.h"
+
+namespace pliant {
+namespace {
+
+using ::testing::AllOf;
+using testing::data_error_of;
+using ::testing::HasSubstr;
+
+constexpr int kWidth = 40;
+constexpr int kHeight = 30;
+
+/// Two good frames of 40x30 pixels in a folder; every test spoils one file.
+class RgbdPairFiles : public testing::TestFiles {
+ protected:
+  RgbdPairFiles() {
+    write_depth(file("a.png"), DepthImage(kWidth, kHeight, 800));
+    write_depth(file("b.png"), DepthImage(kWidth, kHeight, 810));
+    write_color(file("a_color.png"), ColorImage(kWidth, kHeight, {10, 20, 30}));
+    write_color(file("b_color.png"), ColorImage(kWidth, kHeight, {40, 50, 60}));
+    write_mask(file("a_mask.png"), MaskImage(kWidth, kHeight, 1));
+    write("k.txt", "50 0 19.5\n0 50 14.5\n0 0 1\n");
+    write_scene_flow(file("truth.sflow"), Image<Eigen::Vector3f>(kWidth, kHeight, Eigen::Vector3f(0, 0, 10)));
+    settings_.source = {file("a.png"), file("a_color.png"), file("a_mask.png")};
+    settings_.target = {file("b.png"), file("b_color.png"), ""};
+    settings_.intrinsics = file("k.txt");
+    settings_.scene_flow = file("truth.sflow");
+  }
+
+  FramePair load() const { return RgbdPair(settings_).load(0); }
+  std::string error() const {
+    return data_error_of([&] { load(); });
+  }
+
+  RgbdPair::Settings settings_;
+};
+
+TEST_F(RgbdPairFiles, AreReadAsTheyAre) {
+  const FramePair pair = load();
+  EXPECT_EQ(pair.name, "a to b");
+  EXPECT_EQ(pair.source.depth(3, 4), 800);
+  EXPECT_EQ(pair.target.depth(3, 4), 810);
+  EXPECT_EQ(pair.source.color(0, 0), (Rgb{10, 20, 30}));
+  EXPECT_EQ(pair.source.mask(39, 29), 1);
+  EXPECT_TRUE(pair.target.mask.empty());
+  EXPECT_EQ(pair.camera.fx, 50);
+  EXPECT_EQ(pair.camera.width, kWidth);
+  EXPECT_TRUE(pair.scene_flow(20, 10).isApprox(Eigen::Vector3f(0, 0, 10), 1e-6f));
+}
+
+TEST_F(RgbdPairFiles, DescribeTheSameInAnExperimentFile) {
+  DepthImage depth(kWidth, kHeight, 810);
+  depth(5, 6) = 816;
+  write_depth(file("b.png"), depth);
+  const FramePair pair = testing::data_of("{type: rgbd_pair, source: {depth: " + file("a.png") +
+                                          "}, target: {depth: " + file("b.png") +
+                                          "}, intrinsics: " + file("k.txt") + ", max_depth: 815}")
+                             ->load(0);
+  EXPECT_EQ(pair.source.depth(3, 4), 800);
+  EXPECT_EQ(pair.target.depth(3, 4), 810);
+  EXPECT_EQ(pair.target.depth(5, 6), 0) << "farther than max_depth";
+  EXPECT_TRUE(pair.source.color.empty());
+  EXPECT_TRUE(pair.scene_flow.empty());
+}
+
+TEST_F(RgbdPairFiles, AMissingFileIsNamed) {
+  for (std::string* path :
+       {&settings_.source.depth, &settings_.source.color, &settings_.source.mask, &settings_.target.depth,
+        &settings_.target.color, &settings_.intrinsics, &settings_.scene_flow}) {
+    const std::string good = *path;
+    *path = file("none");
+    EXPECT_THAT(error(), AllOf(HasSubstr(file("none")), HasSubstr("no such file")));
+    *path = good;
+  }
+}
+
+TEST_F(RgbdPairFiles, ATruncatedFileIsNamed) {
+  for (std::string* path : {&settings_.source.depth, &settings_.source.color, &settings_.source.mask,
+                            &settings_.target.depth, &settings_.target.color, &settings_.scene_flow}) {
+    const std::string good = *path;
+    *path = cut(good, read_file(good).size() / 2);
+    EXPECT_THAT(error(), HasSubstr(*path));
+    *path = good;
+  }
+}
+
+TEST_F(RgbdPairFiles, DepthOfEightBitsIsAnError) {
+  settings_.target.depth = settings_.source.mask;
+  EXPECT_THAT(error(), AllOf(HasSubstr("a_mask.png"), HasSubstr("expected a 16-bit")));
+}
+
+TEST_F(RgbdPairFiles, DifferentSizesAreErrors) {
+  const DepthImage larger(kWidth + 1, kHeight, 800);
+  write_depth(file("b.png"), larger);
+  settings_.target.color = "";
+  EXPECT_THAT(error(), AllOf(HasSubstr("b.png"), HasSubstr("41x30"), HasSubstr("40x30")));
+  write_depth(file("b.png"), DepthImage(kWidth, kHeight, 810));
+  write_color(file("a_color.png"), ColorImage(kWidth, kHeight - 1, {1, 2, 3}));
+  EXPECT_THAT(error(), AllOf(HasSubstr("a_color.png"), HasSubstr("40x29")));
+  write_color(file("a_color.png"), ColorImage(kWidth, kHeight, {1, 2, 3}));
+  write_mask(file("a_mask.png"), MaskImage(kWidth - 3, kHeight, 1));
+  EXPECT_THAT(error(), AllOf(HasSubstr("a_mask.png"), HasSubstr("37x30")));
+  write_mask(file("a_mask.png"), MaskImage(kWidth, kHeight, 1));
+  write_scene_flow(file("truth.sflow"), Image<Eigen::Vector3f>(2, 2, Eigen::Vector3f::Zero()));
+  EXPECT_THAT(error(), AllOf(HasSubstr("truth.sflow"), HasSubstr("2x2")));
+}
+
+TEST_F(RgbdPairFiles, IntrinsicsOfAnotherSizeAreAnError) {
+  write("k.txt", "525 0 319.5\n0 525 239.5\n0 0 1\n");
+  EXPECT_THAT(error(), AllOf(HasSubstr("k.txt"), HasSubstr("40x30")));
+}
+
+TEST_F(RgbdPairFiles, AnEmptyMaskIsAnError) {
+  write_mask(file("a_mask.png"), MaskImage(kWidth, kHeight, 0));
+  EXPECT_THAT(error(), AllOf(HasSubstr("a_mask.png"), HasSubstr("the mask is empty")));
+}
+
+TEST_F(RgbdPairFiles, NoValidDepthIsAnError) {
+  write_depth(file("b.png"), DepthImage(kWidth, kHeight, 0));
+  EXPECT_THAT(error(), AllOf(HasSubstr("b.png"), HasSubstr("no valid depth")));
+  write_depth(file("b.png"), DepthImage(kWidth, kHeight, 810));
+  settings_.max_depth = 700;
+  EXPECT_THAT(error(), AllOf(HasSubstr("a.png"), HasSubstr("no valid depth up to 700 mm")));
+}
+
+TEST_F(RgbdPairFiles, NoValidDepthInsideTheMaskIsAnError) {
+  DepthImage depth(kWidth, kHeight, 800);
+  depth(7, 8) = 0;
+  write_depth(file("a.png"), depth);
+  MaskImage mask(kWidth, kHeight, 0);
+  mask(7, 8) = 1;
+  write_mask(file("a_mask.png"), mask);
+  EXPECT_THAT(error(), AllOf(HasSubstr("a.png"), HasSubstr("inside the mask")));
+}
+
+TEST_F(RgbdPairFiles, NaNInTheTruthIsAnError) {
+  auto bytes = read_file(file("truth.sflow"));
+  for (std::size_t i = bytes.size() - 4; i < bytes.size(); ++i) bytes[i] = 0xff;
+  write("truth.sflow", bytes);
+  EXPECT_THAT(error(), AllOf(HasSubstr("truth.sflow"), HasSubstr("NaN in ground truth at pixel (39, 29)")));
+}
+
+TEST_F(RgbdPairFiles, ATruthThatKnowsNothingOfTheSourceIsAnError) {
+  write_scene_flow(file("truth.sflow"),
+                   Image<Eigen::Vector3f>(kWidth, kHeight, Eigen::Vector3f::Constant(std::nanf(""))));
+  EXPECT_THAT(error(), AllOf(HasSubstr("truth.sflow"), HasSubstr("no ground truth on any point")));
+}
+
+}  // namespace
+}  // namespace pliant
