@@ -147,9 +147,19 @@ void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::si
 }
 
 cl::Buffer Device::allocate(std::size_t bytes) const {
+  // OpenCL has no empty buffers; one byte keeps empty arrays usable as kernel arguments.
+  const auto size = std::max<std::size_t>(bytes, 1);
+  // The queue is in order: what still uses a dropped buffer comes before what its next owner enqueues.
+  const auto unused = [](const cl::Buffer& buffer) { return buffer.getInfo<CL_MEM_REFERENCE_COUNT>() == 1; };
+  for (auto [entry, end] = buffers_.equal_range(size); entry != end; ++entry)
+    if (unused(entry->second)) return entry->second;
   try {
-    // OpenCL has no empty buffers; one byte keeps empty arrays usable as kernel arguments.
-    return cl::Buffer(context_, CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 1));
+    return buffers_.emplace(size, cl::Buffer(context_, CL_MEM_READ_WRITE, size))->second;
+  } catch (const cl::Error&) {
+    std::erase_if(buffers_, [&](const auto& entry) { return unused(entry.second); });
+  }
+  try {
+    return buffers_.emplace(size, cl::Buffer(context_, CL_MEM_READ_WRITE, size))->second;
   } catch (const cl::Error& error) {
     fail(fmt::format("allocating {} bytes on {}", bytes, info_.name), error);
   }

@@ -64,7 +64,8 @@ class Device {
     enqueue(stage, kernel, global, local);
   }
 
-  /// A buffer of uninitialised bytes; DeviceError names the size when it does not fit.
+  /// A buffer of uninitialised bytes; DeviceError names the size when it does not fit. Buffers that all
+  /// others have dropped are given out again: fresh pages cost more than most kernels.
   cl::Buffer allocate(std::size_t bytes) const;
 
   /// A buffer made of host values; unlike write() this does not wait for the device.
@@ -110,7 +111,8 @@ class Device {
   Program& program_of(std::string_view source, const std::string& options);
   std::string all_options(const std::string& options) const;
 
-  std::unordered_map<std::string, Program> programs_;  // by options and source
+  std::unordered_map<std::string, Program> programs_;       // by options and source
+  mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: all that allocate() gave out
   bool measuring_ = false;
   std::vector<std::pair<std::string, cl::Event>> events_;
 };

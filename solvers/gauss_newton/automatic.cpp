@@ -32,7 +32,7 @@ class Automatic : public LinearSolver {
     const auto& chosen = obstacle.empty() ? structured_ : general_;
     return std::make_unique<ChosenCourse>(
         chosen->bind(problem, device, options),
-        obstacle.empty() ? "every energy treats the axes apart or looks at single nodes" : obstacle);
+        obstacle.empty() ? "no energy couples the axes of neighbouring nodes" : obstacle);
   }
 
  private:
@@ -47,7 +47,7 @@ void register_automatic(Registry& registry) {
                              [](const Parameters&, const Registry& components) {
                                return std::make_unique<Automatic>(
                                    components.make<LinearSolver>(Parameters("structured", {})),
-                                   components.make<LinearSolver>(Parameters("dense_cholesky", {})));
+                                   components.make<LinearSolver>(Parameters("block_pcg", {})));
                              });
 }
 

@@ -38,7 +38,7 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
                              int first, global const int* nodes, global const float4* arms,
                              global const float* node_points, global const float* data,
                              global const float* confidence, int add, global float4* forces,
-                             int first_partial, global float* partials) {
+                             global float8* couplings, int first_partial, global float* partials) {
   const int begin = get_global_id(0) * CHUNK;
   if (status[0] || begin >= count) return;
   float energy = 0;
@@ -92,3 +92,30 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
   }
   partials[first_partial + get_global_id(0)] = energy;
 }
+
+#if !PER_EDGE && !SEPARABLE
+// What `step` changes the energy by, without losing the digits of a small difference.
+kernel void KERNEL(change)(global const int* status, int count, float weight, global const float* unknowns,
+                           global const float* step, int first, global const int* nodes,
+                           global const float4* arms, global const float* data,
+                           global const float* confidence, int first_change, global float* changes) {
+  const int begin = get_global_id(0) * CHUNK;
+  if (status[0] || begin >= count) return;
+  float sum = 0;
+  for (int i = begin; i < min(begin + CHUNK, count); ++i) {
+    const float factor = weight * confidence[i];
+    if (!(factor > 0)) continue;
+    const float3 moved = displacement(first + i, nodes, arms, unknowns);
+    const float3 way = displacement(first + i, nodes, arms, step);
+    const float u[3] = {moved.x, moved.y, moved.z};
+    const float v[3] = {moved.x + way.x, moved.y + way.y, moved.z + way.z};
+    float given[6], before[ROWS], after[ROWS];
+    for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
+    NAME_RESIDUAL(u, given, before);
+    NAME_RESIDUAL(v, given, after);
+    for (int row = 0; row < ROWS; ++row)
+      sum += factor * (after[row] - before[row]) * (after[row] + before[row]);
+  }
+  changes[first_change + get_global_id(0)] = sum;
+}
+#endif

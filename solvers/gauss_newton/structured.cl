@@ -1,4 +1,4 @@
-// Gauss-Newton on J^T J = M (x) I_3 + (12x12 per node).
+// Gauss-Newton on J^T J = M (x) I_3 + (12x12 per node) + (rows that couple the axes).
 //
 // A node's unknowns are the rows of [D | t]: number 4 axis + c, c = 3 being t; the caller's order (columns of
 // D, then t: 3 c + axis) is met only at the borders. All arrays run over `padded` nodes, a multiple of 16,
@@ -9,8 +9,12 @@
 // xxxxyyyyzzzzwwww the lanes hold M[c][d] x[d], to be added up over d once per block row. The nodes' own
 // 12x12 blocks are kept as packed lower triangles, sixteen nodes at a time.
 //
-// `solve` runs the whole course in one work-group of LANES work-items: launches and waits would cost more
-// than a second core gains. The order of every sum is fixed.
+// Terms of constraints that couple the axes (COUPLED) are never put into a matrix: a constraint's J^T J is
+// 3x3 in the displacement of its point, and conjugate gradients apply it point by point.
+//
+// The course runs in one work-group of LANES work-items, whole in one kernel (`solve`) unless something has
+// to be evaluated between its steps: launches and waits would cost more than a second core gains. The order
+// of every sum is fixed.
 
 #ifndef CG_SPREAD
 #define CG_SPREAD 10
@@ -33,31 +37,33 @@ float4 fold(float16 v) { return (v.lo.lo + v.lo.hi) + (v.hi.lo + v.hi.hi); }
 
 float sum4(float4 v) { return (v.x + v.y) + (v.z + v.w); }
 
-// ---------------------------------------------------------------------------------------------- assembly
+// ---------------------------------------------------------------------------------------------- instances
 
-// One kind of instances as `assemble` sees it (see rows.cl and structure.h).
-#define KIND_ARGUMENTS(x)                                                                       \
-  global const int *starts_##x, global const int *entries_##x, global const ushort *places_##x, \
-      global const float4 *arms_##x, global const float4 *forces_##x
-#define FORCE_ARGUMENTS(x)                                                                    \
-  global const int *starts_##x, global const int *entries_##x, global const float4 *arms_##x, \
-      global float4 *forces_##x
-#define FORCES(x) starts_##x, entries_##x, arms_##x, forces_##x
-#define KIND(x) starts_##x, entries_##x, places_##x, arms_##x, forces_##x
+// One kind of instances, edges or constraints, each over `k` slots (see rows.cl and structure.h).
+typedef struct {
+  int count;
+  global const int* nodes;
+  global const int* starts;
+  global const int* entries;
+  global const float4* arms;
+  global float4* forces;
+} Kind;
+#define KIND_ARGUMENTS(x)                                                                                  \
+  int count_##x, global const int *nodes_##x, global const int *starts_##x, global const int *entries_##x, \
+      global const float4 *arms_##x, global float4 *forces_##x
+#define KIND(x) \
+  { count_##x, nodes_##x, starts_##x, entries_##x, arms_##x, forces_##x }
 
-static inline void add_rows(int node, const int k, KIND_ARGUMENTS(), global float16* row, float16* diagonal,
-                            float4* gradient) {
-  for (int e = starts_[node]; e < starts_[node + 1]; ++e) {
-    const int instance = entries_[e] / SLOTS;
-    const float4 arm = arms_[instance * k + entries_[e] % SLOTS];
-    const float4 force = forces_[instance];
-    gradient[0] += force.x * arm;
-    gradient[1] += force.y * arm;
-    gradient[2] += force.z * arm;
-    const float16 left = TILE(force.w * arm);
+// Row `node` of M from one kind of instances.
+static inline void add_rows(int node, const int k, Kind kind, global const ushort* places,
+                            global float16* row, float16* diagonal) {
+  for (int e = kind.starts[node]; e < kind.starts[node + 1]; ++e) {
+    const int first = kind.entries[e] / SLOTS * k;
+    const float weight = kind.forces[kind.entries[e] / SLOTS].w;
+    const float16 left = TILE(weight * kind.arms[first + kind.entries[e] % SLOTS]);
     for (int slot = 0; slot < k; ++slot) {
-      const float16 product = SPREAD(arms_[instance * k + slot]) * left;
-      const int place = places_[e * k + slot];
+      const float16 product = SPREAD(kind.arms[first + slot]) * left;
+      const int place = places[e * k + slot];
       if (place == 0)
         *diagonal += product;
       else
@@ -66,18 +72,48 @@ static inline void add_rows(int node, const int k, KIND_ARGUMENTS(), global floa
   }
 }
 
-// Row `node` of M, and its part of J^T r of all that separates: each node gathers in a fixed order.
-kernel void assemble(global const int* status, int padded, KIND_ARGUMENTS(edges), KIND_ARGUMENTS(constraints),
-                     global const int* rows, global float16* M, global float4* gradient) {
+// J^T r of one node: three rows.
+static inline void add_forces(int node, const int k, Kind kind, global const float4* forces,
+                              float4* gradient) {
+  for (int e = kind.starts[node]; e < kind.starts[node + 1]; ++e) {
+    const int instance = kind.entries[e] / SLOTS;
+    const float4 arm = kind.arms[instance * k + kind.entries[e] % SLOTS];
+    const float4 force = forces[instance];
+    gradient[0] += force.x * arm;
+    gradient[1] += force.y * arm;
+    gradient[2] += force.z * arm;
+  }
+}
+
+// What the rows of by_node move an instance by.
+static inline float3 moved_by(int instance, const int k, Kind kind, global const float16* by_node) {
+  float4 x = 0, y = 0, z = 0;
+  for (int slot = k * instance; slot < k * (instance + 1); ++slot) {
+    global const float4* rows = (global const float4*)(by_node + kind.nodes[slot]);
+    x += kind.arms[slot] * rows[0];
+    y += kind.arms[slot] * rows[1];
+    z += kind.arms[slot] * rows[2];
+  }
+  return (float3)(sum4(x), sum4(y), sum4(z));
+}
+
+// M and J^T r of all that separates: each node gathers its own in a fixed order.
+kernel void assemble(global const int* status, int padded, KIND_ARGUMENTS(edges),
+                     global const ushort* places_edges, KIND_ARGUMENTS(constraints),
+                     global const ushort* places_constraints, global const int* rows, global float16* M,
+                     global float4* gradient) {
   const int node = get_global_id(0);
   if (status[0] || node >= padded) return;
+  const Kind edges = KIND(edges), constraints = KIND(constraints);
   global float16* row = M + rows[node];
   for (int place = 1; place < rows[node + 1] - rows[node]; ++place) row[place] = 0;
   float16 diagonal = 0;
-  float4 sum[3] = {0, 0, 0};
-  add_rows(node, 2, KIND(edges), row, &diagonal, sum);
-  add_rows(node, K, KIND(constraints), row, &diagonal, sum);
+  add_rows(node, 2, edges, places_edges, row, &diagonal);
+  add_rows(node, K, constraints, places_constraints, row, &diagonal);
   row[0] = diagonal;
+  float4 sum[3] = {0, 0, 0};
+  add_forces(node, 2, edges, edges.forces, sum);
+  add_forces(node, K, constraints, constraints.forces, sum);
   for (int axis = 0; axis < 3; ++axis) gradient[3 * node + axis] = sum[axis];
 }
 
@@ -186,17 +222,77 @@ static inline void solve_packed(global const float16* packed, float16* z) {
     for (int n = 0; n < m; ++n) z[n] -= packed[AT(m, n)] * z[m];
 }
 
+#if COUPLED
+// ------------------------------------------------------------------------------------------ coupled rows
+
+// The diagonal blocks and J^T r of the rows that couple the axes, chunk by chunk.
+kernel void assemble_coupled(global const int* status, int chunks, KIND_ARGUMENTS(constraints),
+                             global const float8* couplings, global const float4* coupled_forces,
+                             global float16* C, global float16* coupled_gradient) {
+  const int chunk = get_global_id(0);
+  if (status[0] || chunk >= chunks) return;
+  const Kind kind = KIND(constraints);
+  float16 products[6][16], forces[16];
+  for (int n = 0; n < 16; ++n) {
+    const int node = 16 * chunk + n;
+    float16 sum[6] = {0, 0, 0, 0, 0, 0};
+    for (int e = kind.starts[node]; e < kind.starts[node + 1]; ++e) {
+      const int instance = kind.entries[e] / SLOTS;
+      const float4 arm = kind.arms[instance * K + kind.entries[e] % SLOTS];
+      const float16 square = SPREAD(arm) * TILE(arm);
+      const float8 W = couplings[instance];
+      sum[0] += W.s0 * square;
+      sum[1] += W.s1 * square;
+      sum[2] += W.s2 * square;
+      sum[3] += W.s3 * square;
+      sum[4] += W.s4 * square;
+      sum[5] += W.s5 * square;
+    }
+    for (int pair = 0; pair < 6; ++pair) products[pair][n] = sum[pair];
+    float4 rows[3] = {0, 0, 0};
+    add_forces(node, K, kind, coupled_forces, rows);
+    forces[n] = (float16)(rows[0], rows[1], rows[2], (float4)(0));
+  }
+  int pair = 0;
+  for (int b = 0; b < 3; ++b)
+    for (int a = b; a < 3; ++a, ++pair) {
+      transpose(products[pair]);
+      for (int c = 0; c < 4; ++c)
+        for (int d = 0; d < 4; ++d)
+          if (a > b || c >= d) C[78 * chunk + AT(4 * a + c, 4 * b + d)] = products[pair][4 * d + c];
+    }
+  transpose(forces);
+  for (int entry = 0; entry < 12; ++entry) coupled_gradient[12 * chunk + entry] = forces[entry];
+}
+
+#endif
+
 // -------------------------------------------------------------------------------------- Gauss-Newton itself
+
+// What a course knows of itself; between kernels it lies in a buffer.
+typedef struct {
+  float energy, initial_energy;
+  float summed_energy;  // where the gradient was last summed over the instances
+  float damping;
+  float noise;   // changes of the energy that single precision cannot see
+  float wanted;  // change of the energy that ends the course
+  float change;  // of the energy, by the step in hand; without what is coupled
+  int iteration, linear_iterations;
+  int used;   // iterations of the linear solver for the step in hand; -1: there was no solution
+  int fresh;  // the gradient has just been summed
+  int termination;
+} Course;
 
 // Everything that a sweep over the nodes looks at.
 typedef struct {
-  int node_count, chunks;
+  int node_count, chunks, max_iterations;
+  float tolerance, least_damping;
   global const float* node_weights;
   global const int* rows;
   global const int* columns;
   global const float16* M;
   global float16* D;          // diagonal blocks of what is solved: M + energies per node, damped
-  global float16* P;          // their factors
+  global float16* P;          // the same with what is coupled, factored
   global float16* x;          // unknowns, in chunks, like all that follow
   global float16* summed_at;  // x where the gradient was last summed over the instances
   global float16* gradient;   // half the gradient of what separates
@@ -205,10 +301,38 @@ typedef struct {
   global float16* direction;
   global float16* product;
   global float16* by_node;  // what is multiplied by M, node by node
+  Kind edges, constraints;
+#if COUPLED
+  global const float8* couplings;  // J^T J per constraint: xx xy xz yy yz zz
+  global float4* pulls;            // J^T J (displacement) per constraint
+  global const float16* C;         // diagonal blocks
+  global const float16* coupled_gradient;
+#endif
 } System;
 
-// M (from place `first` of each row on) times by_node, for one chunk.
-static inline void multiply_rows(const System* s, int chunk, int first, float16* result) {
+// The arguments that all kernels of the course share.
+#define SYSTEM_ARGUMENTS                                                                      \
+  int node_count, int chunks, int max_iterations, float tolerance, float least_damping,       \
+      global const float *node_weights, global const int *rows, global const int *columns,    \
+      global const float16 *M, global float16 *D, global float16 *P, global float16 *vectors, \
+      KIND_ARGUMENTS(edges), KIND_ARGUMENTS(constraints), global const float8 *couplings,     \
+      global float4 *pulls, global const float16 *C, global const float16 *coupled_gradient
+#if COUPLED
+#define COUPLED_MEMBERS , couplings, pulls, C, coupled_gradient
+#else
+#define COUPLED_MEMBERS
+#endif
+#define MAKE_SYSTEM                                                                                          \
+  {                                                                                                          \
+    node_count, chunks, max_iterations, tolerance, least_damping, node_weights, rows, columns, M, D, P,      \
+        vectors, vectors + 12 * chunks, vectors + 24 * chunks, vectors + 36 * chunks, vectors + 48 * chunks, \
+        vectors + 60 * chunks, vectors + 72 * chunks, vectors + 84 * chunks, KIND(edges),                    \
+        KIND(constraints) COUPLED_MEMBERS                                                                    \
+  }
+
+// result = (M (from place `first` of each row on), and what is coupled if so asked) times by_node, for one
+// chunk; what is coupled must lie in `pulls`.
+static inline void multiply_rows(const System* s, int chunk, int first, int with_coupled, float16* result) {
   float16 m[16];
   for (int n = 0; n < 16; ++n) {
     float16 x = 0, y = 0, z = 0;
@@ -220,7 +344,11 @@ static inline void multiply_rows(const System* s, int chunk, int first, float16*
       y += entries * SPREAD(other[1]);
       z += entries * SPREAD(other[2]);
     }
-    m[n] = (float16)(fold(x), fold(y), fold(z), (float4)(0));
+    float4 sum[3] = {fold(x), fold(y), fold(z)};
+#if COUPLED
+    if (with_coupled) add_forces(16 * chunk + n, K, s->constraints, s->pulls, sum);
+#endif
+    m[n] = (float16)(sum[0], sum[1], sum[2], (float4)(0));
   }
   transpose(m);
   for (int entry = 0; entry < 12; ++entry) result[entry] = m[entry];
@@ -241,8 +369,18 @@ static inline float16 prepare(const System* s, int chunk, float damping, float m
   for (int axis = 0; axis < 3; ++axis)
     for (int c = 0; c < 4; ++c)
       for (int d = 0; d <= c; ++d) packed[AT(4 * axis + c, 4 * axis + d)] += m[4 * d + c];
-  for (int entry = 0; entry < 12; ++entry) packed[AT(entry, entry)] *= 1 + damping;
+  for (int entry = 0; entry < 12; ++entry) {
+    float16 whole = packed[AT(entry, entry)];
+#if COUPLED
+    whole += s->C[78 * chunk + AT(entry, entry)];
+    force[entry] += s->coupled_gradient[12 * chunk + entry];
+#endif
+    packed[AT(entry, entry)] += damping * whole;
+  }
   for (int entry = 0; entry < 78; ++entry) s->D[78 * chunk + entry] = packed[entry];
+#if COUPLED
+  for (int entry = 0; entry < 78; ++entry) packed[entry] += s->C[78 * chunk + entry];
+#endif
   float16 errors[12], size = mean, noise = 0;
   for (int entry = 0; entry < 12; ++entry) {
     const float16 d = packed[AT(entry, entry)];
@@ -261,6 +399,19 @@ static inline float16 prepare(const System* s, int chunk, float damping, float m
   }
   return ROUNDING * size * noise;
 }
+
+#if COUPLED
+// J^T J (what by_node moves the point by) of every constraint.
+static inline void pull(const System* s) {
+  FOR_EACH(instance, s->constraints.count) {
+    const float8 W = s->couplings[instance];
+    const float3 u = moved_by(instance, K, s->constraints, s->by_node);
+    s->pulls[instance] = (float4)(W.s0 * u.x + W.s1 * u.y + W.s2 * u.z, W.s1 * u.x + W.s3 * u.y + W.s4 * u.z,
+                                  W.s2 * u.x + W.s4 * u.y + W.s5 * u.z, 0);
+  }
+  SYNC;
+}
+#endif
 
 // Solves for the step until a further iteration would lower the energy by less than `least`, or by less
 // than a share of what has been gained. Returns the number of iterations, -1 when there is no solution.
@@ -284,10 +435,13 @@ int conjugate_gradients(const System* s, float least, int most_iterations, local
   if (!isfinite(rz)) return -1;
   while (iteration < most_iterations && rz > least) {
     SYNC;
+#if COUPLED
+    pull(s);
+#endif
     part = 0;
     FOR_EACH(chunk, s->chunks) {
       float16 p[12], q[12];
-      multiply_rows(s, chunk, 1, q);
+      multiply_rows(s, chunk, 1, 1, q);
       for (int entry = 0; entry < 12; ++entry) p[entry] = s->direction[12 * chunk + entry];
       multiply_packed(s->D + 78 * chunk, p, q);
       for (int entry = 0; entry < 12; ++entry) {
@@ -335,8 +489,8 @@ int conjugate_gradients(const System* s, float least, int most_iterations, local
   return iteration;
 }
 
-// What the step changes the energy by: exactly so for what is quadratic, as a difference per node for the
-// rest. Leaves M * step in `product`.
+// What the step changes the energy by, without what is coupled: exactly so for what is quadratic, as a
+// difference per node for the rest. Leaves M * step in `product`.
 float try_step(const System* s, local float* scratch) {
   SYNC;
   FOR_EACH(chunk, s->chunks) {
@@ -348,7 +502,7 @@ float try_step(const System* s, local float* scratch) {
   float16 part = 0;
   FOR_EACH(chunk, s->chunks) {
     float16 product[12], u[12], v[12];
-    multiply_rows(s, chunk, 0, product);
+    multiply_rows(s, chunk, 0, 0, product);
     for (int entry = 0; entry < 12; ++entry) {
       const int at = 12 * chunk + entry;
       part += s->step[at] * (product[entry] + 2 * s->gradient[at]);
@@ -361,43 +515,22 @@ float try_step(const System* s, local float* scratch) {
   return total(part, scratch);
 }
 
-// Moves the forces of one kind of instances from `summed_at` to x; `by_node` holds the difference. Returns
+// Moves the forces of one kind of instances from `summed_at` to x; by_node holds the difference. Returns
 // their energy.
-static inline float move_forces(const System* s, const int k, int count, global const int* nodes,
-                                global const float4* arms, global float4* forces) {
+static inline float move_forces(const System* s, const int k, Kind kind) {
   float energy = 0;
-  FOR_EACH(instance, count) {
-    float4 x = 0, y = 0, z = 0;
-    for (int slot = k * instance; slot < k * (instance + 1); ++slot) {
-      global const float4* moved = (global const float4*)(s->by_node + nodes[slot]);
-      x += arms[slot] * moved[0];
-      y += arms[slot] * moved[1];
-      z += arms[slot] * moved[2];
-    }
-    float4 force = forces[instance];
-    force.xyz += force.w * (float3)(sum4(x), sum4(y), sum4(z));
-    forces[instance] = force;
+  FOR_EACH(instance, kind.count) {
+    float4 force = kind.forces[instance];
+    force.xyz += force.w * moved_by(instance, k, kind, s->by_node);
+    kind.forces[instance] = force;
     if (force.w > 0) energy += (force.x * force.x + force.y * force.y + force.z * force.z) / force.w;
   }
   return energy;
 }
 
-static inline void add_forces(int node, const int k, FORCE_ARGUMENTS(), float4* gradient) {
-  for (int e = starts_[node]; e < starts_[node + 1]; ++e) {
-    const int instance = entries_[e] / SLOTS;
-    const float4 arm = arms_[instance * k + entries_[e] % SLOTS];
-    const float4 force = forces_[instance];
-    gradient[0] += force.x * arm;
-    gradient[1] += force.y * arm;
-    gradient[2] += force.z * arm;
-  }
-}
-
-// Sums the gradient anew over the instances: updated by M times step after step it gathers rounding errors
-// which the worse conditioned a problem is the more weigh. Returns the energy of the instances.
-float sum_gradient(const System* s, int edge_count, global const int* edge_nodes, FORCE_ARGUMENTS(edges),
-                   int constraint_count, global const int* constraint_nodes, FORCE_ARGUMENTS(constraints),
-                   local float* scratch) {
+// Sums the gradient anew over the instances: updated by M step after step it gathers rounding errors, which
+// weigh the more the worse a problem is conditioned. Returns the energy of the instances.
+float sum_gradient(const System* s, local float* scratch) {
   FOR_EACH(chunk, s->chunks) {
     float16 way[12];
     for (int entry = 0; entry < 12; ++entry) {
@@ -408,17 +541,15 @@ float sum_gradient(const System* s, int edge_count, global const int* edge_nodes
     store_rows(way, chunk, s->by_node);
   }
   SYNC;
-  const float16 part =
-      (float16)(move_forces(s, 2, edge_count, edge_nodes, arms_edges, forces_edges),
-                move_forces(s, K, constraint_count, constraint_nodes, arms_constraints, forces_constraints),
-                0, 0, (float4)(0), (float8)(0));
+  const float16 part = (float16)(move_forces(s, 2, s->edges), move_forces(s, K, s->constraints), 0, 0,
+                                 (float4)(0), (float8)(0));
   SYNC;
   FOR_EACH(chunk, s->chunks) {
     float16 m[16];
     for (int n = 0; n < 16; ++n) {
       float4 sum[3] = {0, 0, 0};
-      add_forces(16 * chunk + n, 2, FORCES(edges), sum);
-      add_forces(16 * chunk + n, K, FORCES(constraints), sum);
+      add_forces(16 * chunk + n, 2, s->edges, s->edges.forces, sum);
+      add_forces(16 * chunk + n, K, s->constraints, s->constraints.forces, sum);
       m[n] = (float16)(sum[0], sum[1], sum[2], (float4)(0));
     }
     transpose(m);
@@ -448,111 +579,179 @@ float ordered_sum(global const float* values, int count) {
   return sum;
 }
 
-// The whole course, from `unknowns` to `unknowns`. `partials`: energy of edges and constraints at the start;
-// behind them it leaves the energy per node at the end. Words of status: see StatusWord; the energies it
-// leaves are the changes that `conclude` turns into sums.
-kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
-    global int* status, int node_count, int chunks, int max_iterations, float tolerance, float least_damping,
-    global const float* node_weights, global const int* rows, global const int* columns,
-    global const float16* M, global float16* D, global float16* P, global float16* vectors,
-    global const float4* gradient, int edge_count, global const int* edge_nodes, FORCE_ARGUMENTS(edges),
-    int constraint_count, global const int* constraint_nodes, FORCE_ARGUMENTS(constraints), int partial_count,
-    global float* partials, global float* unknowns) {
-  local float scratch[LANES];
-  const int length = 12 * chunks;
-  System s = {node_count, chunks, node_weights, rows, columns, M, D, P, vectors};
-  s.summed_at = s.x + length;
-  s.gradient = s.summed_at + length;
-  s.step = s.gradient + length;
-  s.residual = s.step + length;
-  s.direction = s.residual + length;
-  s.product = s.direction + length;
-  s.by_node = s.product + length;
-
-  FOR_EACH(chunk, chunks) {
+// `partials`: energy of edges and constraints. `assembled`: gradient of what separates, node by node.
+Course begin_course(const System* s, global const float* unknowns, global const float4* assembled,
+                    int partial_count, global const float* partials, local float* scratch) {
+  FOR_EACH(chunk, s->chunks) {
     float16 m[16], g[16];
     for (int n = 0; n < 16; ++n) {
       const int node = 16 * chunk + n;
-      m[n] = node < node_count
-                 ? (float16)(vload8(0, unknowns + 12 * node), vload4(2, unknowns + 12 * node), 0, 0, 0, 0)
-                 : 0;
-      g[n] = (float16)(gradient[3 * node], gradient[3 * node + 1], gradient[3 * node + 2], (float4)(0));
+      m[n] = 0;
+      if (node < s->node_count) {
+        m[n].lo = vload8(0, unknowns + 12 * node);
+        m[n].hi.lo = vload4(2, unknowns + 12 * node);
+      }
+      g[n] = (float16)(assembled[3 * node], assembled[3 * node + 1], assembled[3 * node + 2], (float4)(0));
     }
     transpose(m);
     transpose(g);
     for (int entry = 0; entry < 12; ++entry) {
-      s.x[12 * chunk + entry] = s.summed_at[12 * chunk + entry] = m[COLUMNWISE(entry)];
-      s.gradient[12 * chunk + entry] = g[entry];
+      s->x[12 * chunk + entry] = s->summed_at[12 * chunk + entry] = m[COLUMNWISE(entry)];
+      s->gradient[12 * chunk + entry] = g[entry];
     }
   }
-  float damping = least_damping;
-  float energy = ordered_sum(partials, partial_count) + energy_per_node(&s, scratch);
-  const float initial = energy;
-  const float negligible = 1e-9f * initial;
-  float summed_energy = energy;  // where the gradient was last summed
-  int iteration = 0, linear_iterations = 0, fresh = 1;
-  int termination = isfinite(energy) ? 0 : 4;
-  while (termination == 0) {
-    float16 part = 0;
-    FOR_EACH(chunk, chunks) part += prepare(&s, chunk, damping, 4 * summed_energy / node_count);
-    const float noise = total(part, scratch);
-    const float wanted = tolerance * fmax(energy, negligible);
-    const float settled = fmax(wanted, noise);
-    const int used = conjugate_gradients(&s, fmax(LEAST_SHARE * wanted, noise), 12 * node_count + 1, scratch);
-    linear_iterations += max(used, 0);
-    float change = used == 0 ? 0.0f : INFINITY;
-    if (used > 0) change = try_step(&s, scratch);
-    if (used != 0) {
-      const int accepted = change <= 0;  // false for NaN
-      if (accepted) {
-        energy += change;
-        damping = fmax(damping * 0.1f, least_damping);
-        FOR_EACH(chunk, chunks) for (int at = 12 * chunk; at < 12 * (chunk + 1); ++at) {
-          s.x[at] += s.step[at];
-          s.gradient[at] += s.product[at];
-        }
-      } else {
-        damping = fmax(damping, 1e-6f) * 10;
+  Course course = {0};
+  course.energy = ordered_sum(partials, partial_count) + energy_per_node(s, scratch);
+  course.initial_energy = course.summed_energy = course.energy;
+  course.damping = s->least_damping;
+  course.fresh = 1;
+  course.termination = isfinite(course.energy) ? 0 : 4;
+  return course;
+}
+
+void make_step(const System* s, Course* course, local float* scratch) {
+  float16 part = 0;
+  const float mean = 4 * course->summed_energy / s->node_count;
+  FOR_EACH(chunk, s->chunks) part += prepare(s, chunk, course->damping, mean);
+  course->noise = total(part, scratch);
+  course->wanted = s->tolerance * fmax(course->energy, 1e-9f * course->initial_energy);
+  course->used = conjugate_gradients(s, fmax(LEAST_SHARE * course->wanted, course->noise),
+                                     12 * s->node_count + 1, scratch);
+  course->change = course->used > 0 ? try_step(s, scratch) : course->used == 0 ? 0.0f : INFINITY;
+}
+
+// Takes a step that lowers the energy; otherwise damps [thesis 4.6, OPEN]. Ends the course when the energy
+// has stopped changing (1), after the last iteration (2) or when no damping helps (3). `energies`: the
+// changes.
+void decide(const System* s, Course* course, global int* energies, local float* scratch) {
+  const float change = course->change;
+  if (course->used != 0) {
+    const int accepted = change <= 0;  // false for NaN
+    if (accepted) {
+      course->energy += change;
+      course->damping = fmax(course->damping * 0.1f, s->least_damping);
+      FOR_EACH(chunk, s->chunks) for (int at = 12 * chunk; at < 12 * (chunk + 1); ++at) {
+        s->x[at] += s->step[at];
+        s->gradient[at] += s->product[at];
       }
-      if (get_local_id(0) == 0) status[16 + iteration] = as_int(accepted ? change : 0.0f);
-      ++iteration;
+    } else {
+      course->damping = fmax(course->damping, 1e-6f) * 10;
     }
-    if (fabs(change) <= settled && (fresh || noise <= wanted))
-      termination = 1;
-    else if (iteration >= max_iterations)
-      termination = 2;
-    else if (damping > 1e6f)
-      termination = 3;
-    fresh = 0;
-    if (termination == 0 && fabs(change) <= settled) {
-      energy = sum_gradient(&s, edge_count, edge_nodes, FORCES(edges), constraint_count, constraint_nodes,
-                            FORCES(constraints), scratch) +
-               energy_per_node(&s, scratch);
-      summed_energy = energy;
-      fresh = 1;
-    }
+    if (get_local_id(0) == 0) energies[course->iteration] = as_int(accepted ? change : 0.0f);
+    ++course->iteration;
+    course->linear_iterations += max(course->used, 0);
   }
-  FOR_EACH(chunk, chunks) {
-    float16 m[16];
-    for (int entry = 0; entry < 12; ++entry) m[COLUMNWISE(entry)] = s.x[12 * chunk + entry];
-    for (int entry = 12; entry < 16; ++entry) m[entry] = 0;
-    transpose(m);
-    for (int n = 0; n < 16; ++n) {
-      const int node = 16 * chunk + n;
-      if (node >= node_count) break;
-      vstore8(m[n].lo, 0, unknowns + 12 * node);
-      vstore4(m[n].hi.lo, 2, unknowns + 12 * node);
-    }
-  }
-  const float per_node = energy_per_node(&s, scratch);
-  if (get_local_id(0) == 0) {
-    partials[partial_count] = per_node;
-    status[2] = iteration;
-    status[7] = termination;
-    status[8] = as_int(initial);
-    status[9] = linear_iterations;
+  const int settled = fabs(change) <= fmax(course->wanted, course->noise);
+  if (settled && (course->fresh || course->noise <= course->wanted))
+    course->termination = 1;
+  else if (course->iteration >= s->max_iterations)
+    course->termination = 2;
+  else if (course->damping > 1e6f)
+    course->termination = 3;
+  course->fresh = 0;
+  if (course->termination == 0 && settled) {
+    const float energy = sum_gradient(s, scratch) + energy_per_node(s, scratch);
+#if !COUPLED
+    course->energy = energy;
+#endif
+    course->summed_energy = course->energy;
+    course->fresh = 1;
   }
 }
+
+// A vector in the order of the caller.
+static inline void store_columnwise(const System* s, global const float16* from, global float* to) {
+  FOR_EACH(chunk, s->chunks) {
+    float16 m[16];
+    for (int entry = 0; entry < 12; ++entry) m[COLUMNWISE(entry)] = from[12 * chunk + entry];
+    for (int entry = 12; entry < 16; ++entry) m[entry] = 0;
+    transpose(m);
+    for (int n = 0; n < 16 && 16 * chunk + n < s->node_count; ++n) {
+      vstore8(m[n].lo, 0, to + 12 * (16 * chunk + n));
+      vstore4(m[n].hi.lo, 2, to + 12 * (16 * chunk + n));
+    }
+  }
+}
+
+// `partials` gets the energy per node behind those of edges and constraints.
+void end_course(const System* s, const Course* course, global int* status, int partial_count,
+                global float* partials, global float* unknowns, local float* scratch) {
+  store_columnwise(s, s->x, unknowns);
+  const float per_node = energy_per_node(s, scratch);
+  if (get_local_id(0) == 0) {
+    partials[partial_count] = per_node;
+    status[0] = 0;
+    status[2] = course->iteration;
+    status[7] = course->termination;
+    status[8] = as_int(course->initial_energy);
+    status[9] = course->linear_iterations;
+  }
+}
+
+#define COURSE_KERNEL kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
+
+#if !COUPLED
+// The whole course, from `unknowns` to `unknowns`. Words of status: see StatusWord; the energies it leaves
+// are the changes that `conclude` turns into sums.
+COURSE_KERNEL solve(global int* status, SYSTEM_ARGUMENTS, global const float4* assembled, int partial_count,
+                    global float* partials, global float* unknowns) {
+  local float scratch[LANES];
+  const System s = MAKE_SYSTEM;
+  Course course = begin_course(&s, unknowns, assembled, partial_count, partials, scratch);
+  while (course.termination == 0) {
+    make_step(&s, &course, scratch);
+    decide(&s, &course, status + 16, scratch);
+  }
+  end_course(&s, &course, status, partial_count, partials, unknowns, scratch);
+}
+#else
+// The same in pieces. While a step is in hand, `trial` holds it in the caller's order.
+COURSE_KERNEL begin(global int* status, SYSTEM_ARGUMENTS, global const float4* assembled, int partial_count,
+                    global const float* partials, global const float* unknowns, global Course* kept) {
+  local float scratch[LANES];
+  const System s = MAKE_SYSTEM;
+  const Course course = begin_course(&s, unknowns, assembled, partial_count, partials, scratch);
+  if (get_local_id(0) == 0) {
+    *kept = course;
+    status[0] = course.termination;
+  }
+}
+
+COURSE_KERNEL step(global const int* status, SYSTEM_ARGUMENTS, global Course* kept, global float* trial) {
+  local float scratch[LANES];
+  if (status[0]) return;
+  const System s = MAKE_SYSTEM;
+  Course course = *kept;
+  make_step(&s, &course, scratch);
+  store_columnwise(&s, s.step, trial);
+  if (get_local_id(0) == 0) *kept = course;
+}
+
+// `changes`: of the energy of what is coupled, by the step in hand.
+COURSE_KERNEL take(global int* status, SYSTEM_ARGUMENTS, global Course* kept, int change_count,
+                   global const float* changes, global float* unknowns) {
+  local float scratch[LANES];
+  if (status[0]) return;
+  const System s = MAKE_SYSTEM;
+  Course course = *kept;
+  SYNC;
+  if (course.used > 0) course.change += ordered_sum(changes, change_count);
+  decide(&s, &course, status + 16, scratch);
+  store_columnwise(&s, s.x, unknowns);
+  if (get_local_id(0) == 0) {
+    *kept = course;
+    status[0] = course.termination;
+  }
+}
+
+COURSE_KERNEL end(global int* status, SYSTEM_ARGUMENTS, global const Course* kept, int partial_count,
+                  global float* partials, global float* unknowns) {
+  local float scratch[LANES];
+  const System s = MAKE_SYSTEM;
+  const Course course = *kept;
+  end_course(&s, &course, status, partial_count, partials, unknowns, scratch);
+}
+#endif
 
 // The final energy, summed anew, and from it the energies after each iteration: their changes are small
 // and known to many digits, sums of large numbers are not.

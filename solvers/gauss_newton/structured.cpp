@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <array>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -21,6 +21,7 @@ namespace {
 constexpr int chunk = 64;  // CHUNK in rows.cl
 constexpr int lanes = 16;  // nodes that the course handles at once
 constexpr std::size_t group = 16;
+constexpr std::size_t course_bytes = 64;  // no less than a Course in structured.cl
 
 int rounded_up(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
 
@@ -82,6 +83,8 @@ struct Kind {
   }
 };
 
+bool couples_axes(const Term& term) { return !term.energy.equation.axis_separable(); }
+
 /// A term per edge or per constraint, and where its instances stand among those of its kind.
 struct RowTerm {
   const Term* term;
@@ -90,7 +93,9 @@ struct RowTerm {
   cl_int count;
   cl_int add;  ///< another term has already written to the same instances
   cl_int first_partial;
+  cl_int first_change;  ///< of a term that couples the axes
   cl::Kernel evaluate;
+  cl::Kernel change;
 
   int partials() const { return (count + chunk - 1) / chunk; }
 };
@@ -110,18 +115,17 @@ class StructuredCourse : public Course {
   }
 
   void enqueue(const cl::Buffer& status) override {
-    evaluate("jacobian", status);
-    device_.run("mm", assemble_, static_cast<std::size_t>(padded_), group, status, padded_, edges_.starts,
-                edges_.entries, edges_.places, edges_.arms, edges_.forces, constraints_.starts,
-                constraints_.entries, constraints_.places, constraints_.arms, constraints_.forces, rows_,
-                matrix_, gradient_);
-    device_.run("solver", solve_, local_, local_, status, node_count_, padded_ / lanes,
-                options_.max_iterations, options_.tolerance, options_.damping, node_weights_, rows_, columns_,
-                matrix_, diagonal_, preconditioner_, vectors_, gradient_, count_of(edges_), edges_.nodes,
-                edges_.starts, edges_.entries, edges_.arms, edges_.forces, count_of(constraints_),
-                constraints_.nodes, constraints_.starts, constraints_.entries, constraints_.arms,
-                constraints_.forces, partial_count_, partials_, problem_.unknowns().write_device(device_));
-    evaluate("energy", status);
+    for (auto& term : row_terms_) evaluate("jacobian", term, status);
+    device_.run("mm", assemble_, static_cast<std::size_t>(padded_), group, status, padded_, count_of(edges_),
+                edges_.nodes, edges_.starts, edges_.entries, edges_.arms, edges_.forces, edges_.places,
+                count_of(constraints_), constraints_.nodes, constraints_.starts, constraints_.entries,
+                constraints_.arms, constraints_.forces, constraints_.places, rows_, matrix_, gradient_);
+    if (is_coupled())
+      minimise_step_by_step(status);
+    else
+      run_course(solve_, status, gradient_, partial_count_, partials_,
+                 problem_.unknowns().write_device(device_));
+    for (auto& term : row_terms_) evaluate("energy", term, status);
     device_.run("energy", conclude_, 1, 1, status, partial_count_ + 1, partials_);
   }
 
@@ -132,8 +136,6 @@ class StructuredCourse : public Course {
 
   void collect_terms() {
     const int edge_count = static_cast<int>(problem_.graph().edges.size());
-    int constraint_count = 0;
-    std::map<const Constraints*, int> first_of;
     edges_.incidences.per_instance = 2;
     constraints_.incidences.per_instance = 1;
     for (const auto& term : problem_.terms()) {
@@ -141,19 +143,12 @@ class StructuredCourse : public Course {
         node_terms_.push_back(&term);
         continue;
       }
-      RowTerm made{&term, &edges_, 0, edge_count, 0, partial_count_, {}};
+      RowTerm made{&term, &edges_, 0, edge_count, 0, partial_count_, coupled_partial_count_, {}, {}};
       if (term.constraints) {
-        const auto [found, fresh] = first_of.emplace(term.constraints.get(), constraint_count);
         made.kind = &constraints_;
-        made.first = found->second;
+        made.first = first_of(term.constraints.get(), couples_axes(term), made.add);
         made.count = static_cast<int>(term.constraints->size());
-        made.add = static_cast<int>(!fresh);
-        if (fresh) {
-          sets_.push_back({term.constraints.get(), constraint_count});
-          constraint_count += made.count;
-          constraints_.incidences.per_instance =
-              std::max(constraints_.incidences.per_instance, term.constraints->influences.per_point);
-        }
+        if (couples_axes(term)) coupled_partial_count_ += made.partials();
       } else {
         const auto own = edge_incidences(problem_.graph()).nodes;
         made.first = static_cast<int>(edges_.incidences.size());
@@ -163,6 +158,21 @@ class StructuredCourse : public Course {
       row_terms_.push_back(std::move(made));
     }
     for (const auto& set : sets_) append_slots(set.constraints->influences);
+  }
+
+  /// Where the instances of a set of constraints begin; `add` becomes true when a term of the same sort has
+  /// been there before.
+  int first_of(const Constraints* constraints, bool coupled, cl_int& add) {
+    auto set = std::find_if(sets_.begin(), sets_.end(),
+                            [&](const ConstraintSet& known) { return known.constraints == constraints; });
+    if (set == sets_.end()) {
+      set = sets_.insert(set, {constraints, constraint_count_, {false, false}});
+      constraint_count_ += static_cast<int>(constraints->size());
+      auto& slots = constraints_.incidences.per_instance;
+      slots = std::max(slots, constraints->influences.per_point);
+    }
+    add = static_cast<cl_int>(std::exchange(set->written[coupled ? 1 : 0], true));
+    return set->first;
   }
 
   void append_slots(const Influences& influences) {
@@ -202,23 +212,51 @@ class StructuredCourse : public Course {
     const auto nodes = static_cast<std::size_t>(padded_);
     matrix_ = device_.allocate(number * 16 * pattern.columns.size());
     diagonal_ = device_.allocate(number * 78 * nodes);
-    preconditioner_ = device_.allocate(number * 78 * nodes);
+    factors_ = device_.allocate(number * 78 * nodes);
     gradient_ = device_.allocate(number * 12 * nodes);
     vectors_ = device_.allocate(number * (7 * 12 + 16) * nodes);  // seven in chunks, one node by node
     partials_ = device_.allocate(number * static_cast<std::size_t>(partial_count_ + 1));
+    allocate_coupled(nodes);
+  }
+
+  /// What only terms that couple the axes need; kernels take it in any case.
+  void allocate_coupled(std::size_t nodes) {
+    constexpr auto number = sizeof(float);
+    const auto instances = is_coupled() ? constraints_.incidences.size() : 0;
+    if (!is_coupled()) nodes = 0;
+    // Zeros: a set of constraints may have no such term.
+    couplings_ = device_.upload(std::vector<float>(8 * instances, 0.0F));
+    coupled_forces_ = device_.upload(std::vector<float>(4 * instances, 0.0F));
+    pulls_ = device_.allocate(number * 4 * instances);
+    coupled_diagonal_ = device_.allocate(number * 78 * nodes);
+    coupled_gradient_ = device_.allocate(number * 12 * nodes);
+    trial_ = device_.allocate(number * 12 * nodes);
+    changes_ = device_.allocate(number * static_cast<std::size_t>(coupled_partial_count_));
+    course_ = device_.allocate(course_bytes);
   }
 
   void make_kernels() {
     local_ = device_.info().is_gpu ? 128 : 1;
     const auto source =
-        fmt::format("#define LANES {}\n#define SLOTS {}\n#define K {}\n{}{}", local_, max_influences,
-                    constraints_.incidences.per_instance, node_terms_source(node_terms_),
-                    embedded::solvers_gauss_newton_structured_cl);
-    const char* tune = std::getenv("PLIANT_TUNE");
-    assemble_ = device_.kernel(source, "assemble", tune ? tune : "");
-    solve_ = device_.kernel(source, "solve", tune ? tune : "");
-    conclude_ = device_.kernel(source, "conclude", tune ? tune : "");
-    for (auto& term : row_terms_) term.evaluate = row_kernel(term, "evaluate");
+        fmt::format("#define LANES {}\n#define SLOTS {}\n#define K {}\n#define COUPLED {}\n{}{}", local_,
+                    max_influences, constraints_.incidences.per_instance, static_cast<int>(is_coupled()),
+                    node_terms_source(node_terms_), embedded::solvers_gauss_newton_structured_cl);
+    const auto kernel = [&](const char* name) { return device_.kernel(source, name); };
+    assemble_ = kernel("assemble");
+    conclude_ = kernel("conclude");
+    if (is_coupled()) {
+      assemble_coupled_ = kernel("assemble_coupled");
+      begin_ = kernel("begin");
+      step_ = kernel("step");
+      take_ = kernel("take");
+      end_ = kernel("end");
+    } else {
+      solve_ = kernel("solve");
+    }
+    for (auto& term : row_terms_) {
+      term.evaluate = row_kernel(term, "evaluate");
+      if (couples_axes(*term.term)) term.change = row_kernel(term, "change");
+    }
   }
 
   cl::Kernel row_kernel(const RowTerm& term, const std::string& name) {
@@ -245,23 +283,66 @@ class StructuredCourse : public Course {
     }
   }
 
-  void evaluate(const std::string& stage, const cl::Buffer& status) {
-    const auto& unknowns = problem_.unknowns().device(device_);
-    const auto& node_points = problem_.node_points().device(device_);
-    for (auto& term : row_terms_) {
-      const auto* constraints = term.term->constraints.get();
-      const auto& data = constraints ? constraints->data.device(device_) : node_points;
-      const auto& confidence = constraints ? constraints->confidence.device(device_) : node_points;
-      device_.run(stage, term.evaluate, static_cast<std::size_t>(term.partials()), 1, status, term.count,
-                  static_cast<cl_float>(problem_.effective_weight(*term.term)), unknowns, term.first,
-                  term.kind->nodes, term.kind->arms, node_points, data, confidence, term.add,
-                  term.kind->forces, term.first_partial, partials_);
+  bool is_coupled() const { return coupled_partial_count_ > 0; }
+
+  /// A kernel over the system as a whole: one work-group.
+  template <class... Arguments>
+  void run_course(cl::Kernel& kernel, const cl::Buffer& status, const Arguments&... arguments) {
+    device_.run("solver", kernel, local_, local_, status, node_count_, padded_ / lanes,
+                options_.max_iterations, options_.tolerance, options_.damping, node_weights_, rows_, columns_,
+                matrix_, diagonal_, factors_, vectors_, count_of(edges_), edges_.nodes, edges_.starts,
+                edges_.entries, edges_.arms, edges_.forces, count_of(constraints_), constraints_.nodes,
+                constraints_.starts, constraints_.entries, constraints_.arms, constraints_.forces, couplings_,
+                pulls_, coupled_diagonal_, coupled_gradient_, arguments...);
+  }
+
+  void minimise_step_by_step(const cl::Buffer& status) {
+    const auto& unknowns = problem_.unknowns().write_device(device_);
+    run_course(begin_, status, gradient_, partial_count_, partials_, unknowns, course_);
+    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+      // The first time what was evaluated at the start still holds.
+      for (auto& term : row_terms_)
+        if (couples_axes(*term.term) && iteration > 0) evaluate("jacobian", term, status);
+      device_.run("mm", assemble_coupled_, static_cast<std::size_t>(padded_ / lanes), 1, status,
+                  padded_ / lanes, count_of(constraints_), constraints_.nodes, constraints_.starts,
+                  constraints_.entries, constraints_.arms, constraints_.forces, couplings_, coupled_forces_,
+                  coupled_diagonal_, coupled_gradient_);
+      run_course(step_, status, course_, trial_);
+      for (auto& term : row_terms_)
+        if (couples_axes(*term.term)) measure_change(term, status);
+      run_course(take_, status, course_, coupled_partial_count_, changes_, unknowns);
     }
+    run_course(end_, status, course_, partial_count_, partials_, unknowns);
+  }
+
+  void evaluate(const std::string& stage, RowTerm& term, const cl::Buffer& status) {
+    const auto& node_points = problem_.node_points().device(device_);
+    const auto* constraints = term.term->constraints.get();
+    const auto& data = constraints ? constraints->data.device(device_) : node_points;
+    const auto& confidence = constraints ? constraints->confidence.device(device_) : node_points;
+    device_.run(stage, term.evaluate, static_cast<std::size_t>(term.partials()), 1, status, term.count,
+                weight_of(term), problem_.unknowns().device(device_), term.first, term.kind->nodes,
+                term.kind->arms, node_points, data, confidence, term.add,
+                couples_axes(*term.term) ? coupled_forces_ : term.kind->forces, couplings_,
+                term.first_partial, partials_);
+  }
+
+  void measure_change(RowTerm& term, const cl::Buffer& status) {
+    const auto& constraints = *term.term->constraints;
+    device_.run("energy", term.change, static_cast<std::size_t>(term.partials()), 1, status, term.count,
+                weight_of(term), problem_.unknowns().device(device_), trial_, term.first, term.kind->nodes,
+                term.kind->arms, constraints.data.device(device_), constraints.confidence.device(device_),
+                term.first_change, changes_);
+  }
+
+  cl_float weight_of(const RowTerm& term) const {
+    return static_cast<cl_float>(problem_.effective_weight(*term.term));
   }
 
   struct ConstraintSet {
     const Constraints* constraints;
     cl_int first;
+    std::array<bool, 2> written;  ///< by a term that separates, by one that couples the axes
   };
 
   Problem& problem_;
@@ -276,9 +357,13 @@ class StructuredCourse : public Course {
   Kind edges_;
   Kind constraints_;
   cl_int partial_count_ = 0;
-  cl::Buffer rows_, columns_, matrix_, diagonal_, preconditioner_, gradient_, vectors_;
+  cl_int coupled_partial_count_ = 0;
+  int constraint_count_ = 0;
+  cl::Buffer rows_, columns_, matrix_, diagonal_, factors_, gradient_, vectors_;
   cl::Buffer node_weights_, partials_;
-  cl::Kernel assemble_, solve_, conclude_;
+  cl::Buffer couplings_, coupled_forces_, pulls_, coupled_diagonal_, coupled_gradient_;
+  cl::Buffer trial_, changes_, course_;
+  cl::Kernel assemble_, assemble_coupled_, solve_, begin_, step_, take_, end_, conclude_;
 };
 
 class Structured : public LinearSolver {
@@ -295,8 +380,8 @@ class Structured : public LinearSolver {
 
 std::string structured_obstacle(const Problem& problem) {
   for (const auto& term : problem.terms())
-    if (term.energy.stencil != Stencil::per_node && !term.energy.equation.axis_separable())
-      return fmt::format("energy {} couples the axes", term.energy.equation.name);
+    if (term.energy.stencil == Stencil::per_edge && couples_axes(term))
+      return fmt::format("energy {} couples the axes of neighbouring nodes", term.energy.equation.name);
   return "";
 }
 

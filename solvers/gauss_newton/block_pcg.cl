@@ -1,0 +1,180 @@
+// Conjugate gradients over the 12x12 blocks of J^T J, preconditioned by the inverses of the diagonal ones.
+//
+// A row of blocks holds both triangles. A block is nine float16, number 3 g + h for its rows 4 g .. 4 g + 3
+// and columns 4 h .. 4 h + 3, entry 4 d + c = block[4 g + c][4 h + d]: with four numbers x of a vector spread
+// as xxxxyyyyzzzzwwww the lanes hold products, to be added up over d once per row.
+
+#if LANES == 1
+#define SYNC
+#else
+#define SYNC barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
+#endif
+#define FOR_EACH(i, count) for (int i = get_local_id(0); i < (count); i += LANES)
+
+#define SPREAD(row) (row).xxxxyyyyzzzzwwww
+
+float4 fold(float16 v) { return (v.lo.lo + v.lo.hi) + (v.hi.lo + v.hi.hi); }
+
+// From the lower triangle to rows. sources: 2 * (block of the lower triangle) + whether to transpose it.
+kernel void expand(global const int* status, int count, global const int* sources, global const float* lower,
+                   global float16* rows) {
+  const int i = get_global_id(0);
+  if (status[0] || i >= count) return;
+  global const float4* block = (global const float4*)(lower + 144 * (sources[i] / 2));
+  for (int g = 0; g < 3; ++g)
+    for (int h = 0; h < 3; ++h) {
+      if (sources[i] % 2) {
+        rows[9 * i + 3 * g + h] = (float16)(block[3 * (4 * h) + g], block[3 * (4 * h + 1) + g],
+                                            block[3 * (4 * h + 2) + g], block[3 * (4 * h + 3) + g]);
+      } else {
+        const float16 m = (float16)(block[3 * (4 * g) + h], block[3 * (4 * g + 1) + h],
+                                    block[3 * (4 * g + 2) + h], block[3 * (4 * g + 3) + h]);
+        rows[9 * i + 3 * g + h] = m.s048c159d26ae37bf;
+      }
+    }
+}
+
+// Raises the diagonal of each diagonal block, the first of its row, by lambda (status[3]) and inverts the
+// block (Gauss-Jordan; rows are lanes). What nothing determines gets zeros: there the preconditioner does not
+// move.
+kernel void invert_diagonals(global const int* status, int node_count, global const int* starts,
+                             global float16* rows, global float16* inverses) {
+  const int node = get_global_id(0);
+  if (status[0] || node >= node_count) return;
+  const float damping = as_float(status[3]);
+  global float16* block = rows + 9 * starts[node];
+  const float16 raise = (float16)(damping, 0, 0, 0, 0, damping, 0, 0, 0, 0, damping, 0, 0, 0, 0, damping);
+  for (int g = 0; g < 3; ++g) block[4 * g] += raise * block[4 * g];
+
+  float a[12][16];
+  float least[12];
+  for (int g = 0; g < 3; ++g)
+    for (int h = 0; h < 3; ++h) {
+      const float16 m = block[3 * g + h];
+      vstore4(m.lo.lo, g, a[4 * h]);  // symmetric: columns are rows
+      vstore4(m.lo.hi, g, a[4 * h + 1]);
+      vstore4(m.hi.lo, g, a[4 * h + 2]);
+      vstore4(m.hi.hi, g, a[4 * h + 3]);
+    }
+  for (int m = 0; m < 12; ++m) {
+    vstore4((float4)(0), 3, a[m]);
+    least[m] = fmax(1e-5f * a[m][m], 1e-30f);
+  }
+  for (int pivot = 0; pivot < 12; ++pivot) {
+    const float d = a[pivot][pivot];
+    const float inverse = d > least[pivot] ? 1 / d : 0;
+    a[pivot][pivot] = 1;
+    const float16 row = inverse * vload16(0, a[pivot]);
+    for (int m = 0; m < 12; ++m) {
+      if (m == pivot) continue;
+      const float factor = a[m][pivot];
+      a[m][pivot] = 0;
+      vstore16(vload16(0, a[m]) - factor * row, 0, a[m]);
+    }
+    vstore16(row, 0, a[pivot]);
+    if (inverse == 0)
+      for (int m = 0; m < 12; ++m) a[m][pivot] = 0;
+  }
+  for (int g = 0; g < 3; ++g)
+    for (int h = 0; h < 3; ++h)
+      inverses[9 * node + 3 * g + h] = (float16)(vload4(g, a[4 * h]), vload4(g, a[4 * h + 1]),
+                                                 vload4(g, a[4 * h + 2]), vload4(g, a[4 * h + 3]));
+}
+
+float total(float4 part, local float* scratch) {
+  const float sum = (part.x + part.y) + (part.z + part.w);
+#if LANES == 1
+  return sum;
+#else
+  scratch[get_local_id(0)] = sum;
+  for (int others = LANES / 2; others > 0; others /= 2) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (get_local_id(0) < others) scratch[get_local_id(0)] += scratch[get_local_id(0) + others];
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const float all = scratch[0];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  return all;
+#endif
+}
+
+// y += block * x, the sums over d still open.
+static inline void multiply(global const float16* block, global const float4* x, float16* y) {
+  const float16 x0 = SPREAD(x[0]), x1 = SPREAD(x[1]), x2 = SPREAD(x[2]);
+  y[0] += block[0] * x0 + block[1] * x1 + block[2] * x2;
+  y[1] += block[3] * x0 + block[4] * x1 + block[5] * x2;
+  y[2] += block[6] * x0 + block[7] * x1 + block[8] * x2;
+}
+
+// vectors: residual, direction, product, each three float4 a node. One work-group; adds its iterations to
+// status[9] and sets status[1] when there is no solution.
+kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
+    global int* status, int node_count, global const int* starts, global const int* columns,
+    global const float16* rows, global const float16* inverses, global const float4* gradient,
+    global float4* vectors, global float4* step) {
+  local float scratch[LANES];
+  if (status[0]) return;
+  global float4* residual = vectors;
+  global float4* direction = residual + 3 * node_count;
+  global float4* product = direction + 3 * node_count;
+
+  float4 part = 0;
+  FOR_EACH(node, node_count) {
+    float16 y[3] = {0, 0, 0};
+    for (int g = 3 * node; g < 3 * node + 3; ++g) residual[g] = -gradient[g];
+    multiply(inverses + 9 * node, residual + 3 * node, y);
+    for (int g = 0; g < 3; ++g) {
+      direction[3 * node + g] = fold(y[g]);
+      step[3 * node + g] = 0;
+      part += residual[3 * node + g] * direction[3 * node + g];
+    }
+  }
+  float rz = total(part, scratch);
+  float gained = 0;
+  int iteration = 0, failed = !isfinite(rz);
+  while (rz > 0 && !failed && iteration < 12 * node_count) {
+    SYNC;
+    part = 0;
+    FOR_EACH(node, node_count) {
+      float16 y[3] = {0, 0, 0};
+      for (int block = starts[node]; block < starts[node + 1]; ++block)
+        multiply(rows + 9 * block, direction + 3 * columns[block], y);
+      for (int g = 0; g < 3; ++g) {
+        product[3 * node + g] = fold(y[g]);
+        part += product[3 * node + g] * direction[3 * node + g];
+      }
+    }
+    const float curvature = total(part, scratch);
+    if (!(curvature > 0)) {
+      failed = iteration == 0;
+      break;
+    }
+    ++iteration;
+    const float alpha = rz / curvature;
+    gained += alpha * rz;
+    const int last = alpha * rz < LEAST_GAIN * gained;
+    part = 0;
+    FOR_EACH(node, node_count) {
+      float16 y[3] = {0, 0, 0};
+      for (int g = 3 * node; g < 3 * node + 3; ++g) {
+        step[g] += alpha * direction[g];
+        residual[g] -= alpha * product[g];
+      }
+      multiply(inverses + 9 * node, residual + 3 * node, y);
+      for (int g = 0; g < 3; ++g) {
+        product[3 * node + g] = fold(y[g]);
+        part += product[3 * node + g] * residual[3 * node + g];
+      }
+    }
+    const float next = total(part, scratch);
+    if (last) break;
+    const float beta = next / rz;
+    rz = next;
+    FOR_EACH(node, node_count)
+    for (int g = 3 * node; g < 3 * node + 3; ++g) direction[g] = product[g] + beta * direction[g];
+  }
+  if (get_local_id(0) == 0) {
+    status[1] = failed;
+    status[9] += iteration;
+  }
+}

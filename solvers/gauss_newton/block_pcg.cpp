@@ -1,0 +1,108 @@
+#include "solvers/gauss_newton/block_pcg.h"
+
+#include <fmt/format.h>
+
+#include "framework/deformation/warp.h"
+#include "solvers/gauss_newton/block_pcg.cl.embed.h"
+#include "solvers/gauss_newton/stepwise.h"
+
+namespace pliant {
+namespace {
+
+constexpr std::size_t block_bytes = sizeof(float) * affine_size * affine_size;
+
+class BlockPcgSteps : public StepSolver {
+ public:
+  explicit BlockPcgSteps(NormalEquations& equations)
+      : equations_(equations),
+        device_(equations.device()),
+        node_count_(equations.node_count()),
+        local_(device_.info().is_gpu ? 128 : 1) {
+    lay_out();
+    // Stops when an iteration gains less than a ten-thousandth of all before: the rest is for the next step.
+    const auto options = fmt::format("-DLANES={} -DLEAST_GAIN=1e-4f", local_);
+    const auto kernel = [&](const char* name) {
+      return device_.kernel(embedded::solvers_gauss_newton_block_pcg_cl, name, options);
+    };
+    expand_ = kernel("expand");
+    invert_ = kernel("invert_diagonals");
+    solve_ = kernel("solve");
+    const auto nodes = static_cast<std::size_t>(node_count_);
+    rows_ = device_.allocate(block_bytes * static_cast<std::size_t>(block_count_));
+    inverses_ = device_.allocate(block_bytes * nodes);
+    vectors_ = device_.allocate(3 * affine_size * sizeof(float) * nodes);
+    step_ = device_.allocate(affine_size * sizeof(float) * nodes);
+  }
+
+  void solve(const cl::Buffer& status) override {
+    device_.run("mm", expand_, static_cast<std::size_t>(block_count_), 16, status, block_count_, sources_,
+                equations_.blocks(), rows_);
+    device_.run("solver", invert_, static_cast<std::size_t>(node_count_), 16, status, node_count_, starts_,
+                rows_, inverses_);
+    device_.run("solver", solve_, local_, local_, status, node_count_, starts_, columns_, rows_, inverses_,
+                equations_.gradient(), vectors_, step_);
+  }
+  const cl::Buffer& step() const override { return step_; }
+
+ private:
+  /// Rows of both triangles out of the lower one, the diagonal block first in each.
+  void lay_out() {
+    const auto& lower_rows = equations_.block_rows().host();
+    const auto& lower_columns = equations_.block_columns().host();
+    std::vector<int> starts(static_cast<std::size_t>(node_count_) + 1, 0);
+    const auto is_diagonal = [&](std::size_t block) { return lower_rows[block] == lower_columns[block]; };
+    for (std::size_t block = 0; block < lower_rows.size(); ++block) {
+      ++starts[static_cast<std::size_t>(lower_rows[block]) + 1];
+      if (!is_diagonal(block)) ++starts[static_cast<std::size_t>(lower_columns[block]) + 1];
+    }
+    for (std::size_t node = 1; node < starts.size(); ++node) starts[node] += starts[node - 1];
+    block_count_ = starts.back();
+    std::vector<int> sources(static_cast<std::size_t>(block_count_)), columns(sources.size());
+    std::vector<int> next;
+    for (std::size_t node = 0; node + 1 < starts.size(); ++node) next.push_back(starts[node] + 1);
+    const auto put = [&](int place, int column, std::size_t block, int transposed) {
+      columns[static_cast<std::size_t>(place)] = column;
+      sources[static_cast<std::size_t>(place)] = 2 * static_cast<int>(block) + transposed;
+    };
+    for (std::size_t block = 0; block < lower_rows.size(); ++block) {
+      const int row = lower_rows[block], column = lower_columns[block];
+      if (is_diagonal(block)) {
+        put(starts[static_cast<std::size_t>(row)], row, block, 0);
+      } else {
+        put(next[static_cast<std::size_t>(row)]++, column, block, 0);
+        put(next[static_cast<std::size_t>(column)]++, row, block, 1);
+      }
+    }
+    starts_ = device_.upload(starts);
+    sources_ = device_.upload(sources);
+    columns_ = device_.upload(columns);
+  }
+
+  NormalEquations& equations_;
+  Device& device_;
+  cl_int node_count_;
+  cl_int block_count_ = 0;
+  std::size_t local_;
+  cl::Buffer starts_, sources_, columns_;
+  cl::Buffer rows_, inverses_, vectors_, step_;
+  cl::Kernel expand_, invert_, solve_;
+};
+
+class BlockPcg : public LinearSolver {
+ public:
+  std::unique_ptr<Course> bind(Problem& problem, Device& device,
+                               const CourseOptions& options) const override {
+    return make_stepwise_course(problem, device, options, "block_pcg", [](NormalEquations& equations) {
+      return std::make_unique<BlockPcgSteps>(equations);
+    });
+  }
+};
+
+}  // namespace
+
+void register_block_pcg(Registry& registry) {
+  registry.add<LinearSolver>("block_pcg", "Conjugate gradients over sparse 12x12 blocks, for any energy", {},
+                             [](const Parameters&, const Registry&) { return std::make_unique<BlockPcg>(); });
+}
+
+}  // namespace pliant
