@@ -1,5 +1,6 @@
 #include "framework/registration/correspondence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -10,9 +11,20 @@
 
 namespace pliant {
 
-ProjectiveCorrespondence::ProjectiveCorrespondence(double max_distance, double max_angle)
+namespace {
+
+using Vector = Eigen::Map<const Eigen::Vector3f>;
+
+Vector at(const Array<float>& vectors, std::size_t index) {
+  return Vector(vectors.host().data() + 3 * index);
+}
+
+}  // namespace
+
+ProjectiveCorrespondence::ProjectiveCorrespondence(double max_distance, double max_angle, int search_radius)
     : max_distance_(static_cast<float>(max_distance)),
-      least_cosine_(static_cast<float>(std::cos(max_angle))) {}
+      least_cosine_(static_cast<float>(std::cos(max_angle))),
+      search_radius_(search_radius) {}
 
 void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, const Array<int>& selected,
                                      const Target& target, Constraints& constraints) const {
@@ -21,31 +33,50 @@ void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, cons
              selected.device(device), constraints.points.device(device), moved.points.device(device),
              moved.normals.device(device), pinhole(target.camera), image_size(target.camera),
              target.points.device(device), target.normals.device(device), max_distance_, least_cosine_,
-             constraints.data.write_device(device), constraints.confidence.write_device(device));
+             static_cast<cl_int>(search_radius_), constraints.data.write_device(device),
+             constraints.confidence.write_device(device));
+}
+
+bool ProjectiveCorrespondence::accepts(const Target& target, std::size_t pixel, const Eigen::Vector3f& point,
+                                       const Eigen::Vector3f& normal) const {
+  const Vector target_normal = at(target.normals, pixel);
+  const bool has_normals = normal.squaredNorm() > 0 && target_normal.squaredNorm() > 0;
+  return (point - at(target.points, pixel)).norm() <= max_distance_ &&
+         (!has_normals || normal.dot(target_normal) >= least_cosine_);
+}
+
+std::optional<std::size_t> ProjectiveCorrespondence::match_point(const Target& target,
+                                                                 const Eigen::Vector3f& point,
+                                                                 const Eigen::Vector3f& normal) const {
+  const auto projected = target_pixel_reference(target, point);
+  if (projected && accepts(target, *projected, point, normal)) return projected;
+  if (search_radius_ == 0 || !(point.z() > 0)) return std::nullopt;
+  const Eigen::Vector2d centre = target.camera.project(point.cast<double>()).array().round();
+  std::optional<std::size_t> best;
+  for (int v = 0; v < target.camera.height; ++v)
+    for (int u = 0; u < target.camera.width; ++u) {
+      if (std::abs(u - centre.x()) > search_radius_ || std::abs(v - centre.y()) > search_radius_) continue;
+      const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(target.camera.width) +
+                         static_cast<std::size_t>(u);
+      if (!(at(target.points, pixel).z() > 0) || !accepts(target, pixel, point, normal)) continue;
+      const auto distance = [&](std::size_t offset) { return (point - at(target.points, offset)).norm(); };
+      if (!best || distance(pixel) < distance(*best)) best = pixel;
+    }
+  return best;
 }
 
 void ProjectiveCorrespondence::match_reference(const PointSet& moved, const Array<int>& selected,
                                                const Target& target, Constraints& constraints) const {
-  using Vector = Eigen::Map<const Eigen::Vector3f>;
   auto& data = constraints.data.write_host();
   auto& confidence = constraints.confidence.write_host();
+  std::fill(data.begin(), data.end(), 0.0F);
   for (std::size_t i = 0; i < selected.size(); ++i) {
-    const auto point = 3 * static_cast<std::size_t>(selected.host()[i]);
-    const Vector p(moved.points.host().data() + point);
-    const Vector normal(moved.normals.host().data() + point);
-    Eigen::Map<Eigen::Vector3f> pull(data.data() + 6 * i);
-    Eigen::Map<Eigen::Vector3f> target_normal(data.data() + 6 * i + 3);
-    pull.setZero();
-    target_normal.setZero();
-    confidence[i] = 0;
-    const auto pixel = target_pixel_reference(target, p);
+    const auto point = static_cast<std::size_t>(selected.host()[i]);
+    const auto pixel = match_point(target, at(moved.points, point), at(moved.normals, point));
+    confidence[i] = pixel ? 1.0F : 0.0F;
     if (!pixel) continue;
-    const Vector q(target.points.host().data() + 3 * *pixel);
-    target_normal = Vector(target.normals.host().data() + 3 * *pixel);
-    const bool has_normals = normal.squaredNorm() > 0 && target_normal.squaredNorm() > 0;
-    const bool is_alike = !has_normals || normal.dot(target_normal) >= least_cosine_;
-    confidence[i] = is_alike && (p - q).norm() <= max_distance_ ? 1.0F : 0.0F;
-    pull = q - Vector(constraints.points.host().data() + 3 * i);
+    Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i) = at(target.points, *pixel) - at(constraints.points, i);
+    Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i + 3) = at(target.normals, *pixel);
   }
 }
 
@@ -59,10 +90,15 @@ void register_correspondences(Registry& registry) {
               .range(0, 180)
               .doc(
                   "A match whose normals differ by more is rejected; without normals distance alone decides"),
+          integer("search_radius", 0)
+              .unit("pixel")
+              .range(0, 512)
+              .doc("Where the match is rejected, the nearest acceptable target point within this is taken"),
       },
       [](const Parameters& parameters, const Registry&) {
         return std::make_unique<ProjectiveCorrespondence>(
-            parameters.real("max_distance"), parameters.real("max_angle") * std::numbers::pi / 180);
+            parameters.real("max_distance"), parameters.real("max_angle") * std::numbers::pi / 180,
+            static_cast<int>(parameters.integer("search_radius")));
       });
 }
 

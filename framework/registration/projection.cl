@@ -10,30 +10,59 @@ int target_pixel(float3 p, float4 camera, int2 size, global const float* target_
   return target_points[3 * pixel + 2] > 0 ? pixel : -1;
 }
 
-// One constraint a work-item. A point or a pixel without a normal is judged by its distance alone.
+// Whether target pixel `pixel` is near enough to the point p and faces alike. Without a normal on either side
+// distance alone decides.
+int is_acceptable(float3 p, float3 normal, int pixel, global const float* target_points,
+                  global const float* target_normals, float max_distance, float least_cosine) {
+  const float3 target_normal = vload3(pixel, target_normals);
+  const int has_normals = dot(normal, normal) > 0 && dot(target_normal, target_normal) > 0;
+  return distance(p, vload3(pixel, target_points)) <= max_distance &&
+         (!has_normals || dot(normal, target_normal) >= least_cosine);
+}
+
+// Offset of the nearest acceptable target point at most `radius` pixels away in u and v from where p projects
+// to, the first one in row-major order on a tie; -1 where there is none.
+int nearest_pixel(float3 p, float3 normal, int radius, float4 camera, int2 size,
+                  global const float* target_points, global const float* target_normals, float max_distance,
+                  float least_cosine) {
+  if (!(p.z > 0)) return -1;
+  const float2 at = round((float2)(camera.x * p.x / p.z + camera.z, camera.y * p.y / p.z + camera.w));
+  const int2 low = convert_int2(clamp(at - radius, (float2)(0), convert_float2(size)));
+  const int2 high = convert_int2(clamp(at + radius, (float2)(-1), convert_float2(size - 1)));
+  int best = -1;
+  float best_distance = INFINITY;
+  for (int v = low.y; v <= high.y; ++v)
+    for (int u = low.x; u <= high.x; ++u) {
+      const int pixel = v * size.x + u;
+      const float3 q = vload3(pixel, target_points);
+      if (!(q.z > 0) || !(distance(p, q) < best_distance)) continue;
+      if (!is_acceptable(p, normal, pixel, target_points, target_normals, max_distance, least_cosine))
+        continue;
+      best = pixel;
+      best_distance = distance(p, q);
+    }
+  return best;
+}
+
+// One constraint a work-item.
 kernel void match(int count, global const int* selected, global const float* rest, global const float* moved,
                   global const float* normals, float4 camera, int2 size, global const float* target_points,
-                  global const float* target_normals, float max_distance, float least_cosine,
+                  global const float* target_normals, float max_distance, float least_cosine, int radius,
                   global float* data, global float* confidence) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const float3 p = vload3(selected[i], moved);
-  const int pixel = target_pixel(p, camera, size, target_points);
-  float3 pull = 0, target_normal = 0;
-  float trust = 0;
-  if (pixel >= 0) {
-    const float3 q = vload3(pixel, target_points);
-    const float3 normal = vload3(selected[i], normals);
-    target_normal = vload3(pixel, target_normals);
-    const int has_normals = dot(normal, normal) > 0 && dot(target_normal, target_normal) > 0;
-    const int near = distance(p, q) <= max_distance;
-    const int alike = !has_normals || dot(normal, target_normal) >= least_cosine;
-    trust = near && alike ? 1 : 0;
-    pull = q - vload3(i, rest);
-  }
-  vstore3(pull, 2 * i, data);
-  vstore3(target_normal, 2 * i + 1, data);
-  confidence[i] = trust;
+  const float3 normal = vload3(selected[i], normals);
+  int pixel = target_pixel(p, camera, size, target_points);
+  if (pixel >= 0 &&
+      !is_acceptable(p, normal, pixel, target_points, target_normals, max_distance, least_cosine))
+    pixel = -1;
+  if (pixel < 0 && radius > 0)
+    pixel = nearest_pixel(p, normal, radius, camera, size, target_points, target_normals, max_distance,
+                          least_cosine);
+  vstore3(pixel >= 0 ? vload3(pixel, target_points) - vload3(i, rest) : (float3)(0), 2 * i, data);
+  vstore3(pixel >= 0 ? vload3(pixel, target_normals) : (float3)(0), 2 * i + 1, data);
+  confidence[i] = pixel >= 0 ? 1 : 0;
 }
 
 #define CHUNK 256
