@@ -9,17 +9,24 @@
 namespace pliant::test {
 namespace {
 
-class GaussNewton : public SolverTest {
+/// What holds for Gauss-Newton whatever solves for its steps.
+class GaussNewton : public SolverTest, public testing::WithParamInterface<const char*> {
  protected:
-  static constexpr auto kSolver = "{type: gauss_newton}";
+  /// `more`: further parameters, e.g. ", tolerance: 0".
+  std::string solver(const std::string& more = "") const {
+    return std::string("{type: gauss_newton, linear_solver: ") + GetParam() + more + "}";
+  }
 };
 
-TEST_F(GaussNewton, TellsOfItsSolve) {
+INSTANTIATE_TEST_SUITE_P(Over, GaussNewton, testing::Values("dense_cholesky", "structured"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_P(GaussNewton, TellsOfItsSolve) {
   auto problem = sheet_problem({});
   const double before = problem.energy();
-  const auto summary = solve(problem, kSolver);
+  const auto summary = solve(problem, solver());
   EXPECT_EQ(summary.solver, "gauss_newton");
-  EXPECT_THAT(summary.linear_solver, testing::StartsWith("structured: "));
+  EXPECT_THAT(summary.linear_solver, testing::StartsWith(GetParam()));
   EXPECT_EQ(summary.termination, "converged");
   EXPECT_NEAR(summary.initial_energy, before, 1e-5 * before);
   EXPECT_NEAR(summary.final_energy, problem.energy(), 1e-4 * summary.final_energy);
@@ -28,11 +35,10 @@ TEST_F(GaussNewton, TellsOfItsSolve) {
   EXPECT_GT(summary.iterations, 1);
 }
 
-TEST_F(GaussNewton, StopsAtTheMostIterations) {
+TEST_P(GaussNewton, StopsAtTheMostIterations) {
   for (const int most : {1, 3, 200}) {
     auto problem = sheet_problem({.nodes = 9, .constraints = 60, .bend = 60});
-    const auto summary =
-        solve(problem, "{type: gauss_newton, tolerance: 0, max_iterations: " + std::to_string(most) + "}");
+    const auto summary = solve(problem, solver(", tolerance: 0, max_iterations: " + std::to_string(most)));
     EXPECT_LE(summary.iterations, most);
     if (most > 3) continue;
     EXPECT_EQ(summary.iterations, most);
@@ -40,11 +46,11 @@ TEST_F(GaussNewton, StopsAtTheMostIterations) {
   }
 }
 
-TEST_F(GaussNewton, ASmallerToleranceTakesNoFewerIterations) {
+TEST_P(GaussNewton, ASmallerToleranceTakesNoFewerIterations) {
   int fewest = 0;
   for (const char* tolerance : {"1e-1", "1e-3", "1e-5"}) {
     auto problem = sheet_problem({.bend = 60, .length_unit = 1000});
-    const auto summary = solve(problem, std::string("{type: gauss_newton, tolerance: ") + tolerance + "}");
+    const auto summary = solve(problem, solver(std::string(", tolerance: ") + tolerance));
     EXPECT_EQ(summary.termination, "converged");
     EXPECT_GE(summary.iterations, fewest);
     fewest = summary.iterations;
@@ -52,12 +58,12 @@ TEST_F(GaussNewton, ASmallerToleranceTakesNoFewerIterations) {
   EXPECT_GT(fewest, 2);
 }
 
-TEST_F(GaussNewton, NeverAcceptsAStepThatRaisesTheEnergy) {
+TEST_P(GaussNewton, NeverAcceptsAStepThatRaisesTheEnergy) {
   int rejected = 0;
   for (const unsigned seed : {1U, 2U, 3U}) {
     auto problem = sheet_problem({.nodes = 20, .constraints = 100, .seed = seed});
     randomise_unknowns(problem, 1.5, 100, seed);
-    const auto summary = solve(problem, "{type: gauss_newton, max_iterations: 100}");
+    const auto summary = solve(problem, solver(", max_iterations: 100"));
     double last = summary.initial_energy;
     for (const double energy : summary.energies) {
       EXPECT_LE(energy, last);
@@ -70,22 +76,22 @@ TEST_F(GaussNewton, NeverAcceptsAStepThatRaisesTheEnergy) {
   EXPECT_GT(rejected, 0) << "these starts were chosen because an undamped step would raise the energy";
 }
 
-TEST_F(GaussNewton, TheSameBitsEveryTime) {
+TEST_P(GaussNewton, TheSameBitsEveryTime) {
   const auto solution = [&] {
     auto problem = sheet_problem({.nodes = 50, .constraints = 700});
-    const auto summary = solve(problem, kSolver);
+    const auto summary = solve(problem, solver());
     return std::pair(problem.unknowns().host(), summary.energies);
   };
   EXPECT_EQ(solution(), solution());
 }
 
-TEST_F(GaussNewton, SolvesAgainFromWhereItStandsTowardsNewTargets) {
+TEST_P(GaussNewton, SolvesAgainFromWhereItStandsTowardsNewTargets) {
   const Sheet sheet{};
   auto graph = make_sheet_graph(sheet);
   const auto constraints = make_sheet_constraints(sheet, graph);
   Problem problem(graph, make_terms(energies_, constraints));
-  const auto solver = make<Solver>(registry_, kSolver);
-  const auto bound = solver->bind(problem, device_);
+  const auto made = make<Solver>(registry_, solver());
+  const auto bound = made->bind(problem, device_);
   bound->solve();
   bound->solve();
   for (auto& value : constraints->data.write_host()) value *= 1.5F;
@@ -98,16 +104,16 @@ TEST_F(GaussNewton, SolvesAgainFromWhereItStandsTowardsNewTargets) {
   EXPECT_NEAR(summaries[2].final_energy, problem.energy(), 1e-4 * problem.energy());
 
   Problem fresh(graph, make_terms(energies_, constraints));
-  solve(fresh, kSolver);
+  solve(fresh, solver());
   EXPECT_NEAR(problem.energy(), fresh.energy(), 1e-4 * fresh.energy()) << "the same as a solve from scratch";
 }
 
-TEST_F(GaussNewton, AStartThatIsNotFiniteIsAnErrorAndChangesNothing) {
+TEST_P(GaussNewton, AStartThatIsNotFiniteIsAnErrorAndChangesNothing) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     auto problem = sheet_problem({.nodes = 9, .constraints = 50});
     problem.unknowns().write_host()[5] = bad;
     try {
-      solve(problem, kSolver);
+      solve(problem, solver());
       ADD_FAILURE() << "solved from " << bad;
     } catch (const NumericalError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("not finite"));
@@ -117,29 +123,35 @@ TEST_F(GaussNewton, AStartThatIsNotFiniteIsAnErrorAndChangesNothing) {
   }
 }
 
-TEST_F(GaussNewton, ATargetThatIsNotFiniteIsAnError) {
+TEST_P(GaussNewton, ATargetThatIsNotFiniteIsAnError) {
   const Sheet sheet{.nodes = 9, .constraints = 50};
   auto graph = make_sheet_graph(sheet);
   const auto constraints = make_sheet_constraints(sheet, graph);
   constraints->data.write_host()[2] = std::numeric_limits<float>::quiet_NaN();
   Problem problem(graph, make_terms(energies_, constraints));
-  EXPECT_THROW(solve(problem, kSolver), NumericalError);
+  EXPECT_THROW(solve(problem, solver()), NumericalError);
   EXPECT_THAT(problem.unknowns().host(), testing::Each(0));
 }
 
-TEST_F(GaussNewton, EndsWithoutADecreaseWhenNoDampingHelps) {
+TEST_P(GaussNewton, EndsWithoutADecreaseWhenNoDampingHelps) {
   const Sheet sheet{.nodes = 4, .constraints = 10};
   auto graph = make_sheet_graph(sheet);
   auto constraints = make_sheet_constraints(sheet, graph);
   constraints->points.write_host()[0] = 1e25F;  // its square has no place in single precision
   Problem problem(graph, make_terms(energies_, constraints));
-  const auto summary = solve(problem, kSolver);
+  const auto summary = solve(problem, solver());
   EXPECT_EQ(summary.termination, "no_decrease");
   EXPECT_EQ(summary.final_energy, summary.initial_energy);
   EXPECT_THAT(problem.unknowns().host(), testing::Each(0)) << "the start, not NaN";
 }
 
-TEST_F(GaussNewton, TimesItsStages) {
+TEST_F(SolverTest, TheLinearSolverThatWasChosenForTheUserComesWithTheReason) {
+  auto problem = sheet_problem({.nodes = 9, .constraints = 50});
+  EXPECT_THAT(solve(problem, "{type: gauss_newton}").linear_solver,
+              testing::ContainsRegex("^(structured|dense_cholesky): .+"));
+}
+
+TEST_F(SolverTest, DenseCholeskyTimesTheStagesOfTheThesis) {
   auto problem = sheet_problem({});
   device_.measure_stages(true);
   solve(problem, "{type: gauss_newton, linear_solver: dense_cholesky}");
