@@ -158,7 +158,7 @@ NormalEquations::~NormalEquations() = default;
 void NormalEquations::assemble(const cl::Buffer& status) {
   auto clear = device_->kernel(embedded::framework_problem_assembly_cl, "clear");
   const auto block_values = 144 * block_rows_.size();
-  device_->run("mm", clear, block_values, 4096, status, static_cast<cl_int>(block_values), blocks_);
+  device_->run("mm", clear, block_values, 256, status, static_cast<cl_int>(block_values), blocks_);
   device_->run("mv", clear, problem_->unknowns().size(), 256, status,
                static_cast<cl_int>(problem_->unknowns().size()), gradient_);
   for (auto& term : terms_) assemble_term(*term, status);
