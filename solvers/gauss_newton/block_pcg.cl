@@ -130,9 +130,9 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
     }
   }
   float rz = total(part, scratch);
-  float gained = 0;
+  const float enough = RELATIVE * RELATIVE * rz;
   int iteration = 0, failed = !isfinite(rz);
-  while (rz > 0 && !failed && iteration < 12 * node_count) {
+  while (rz > enough && !failed && iteration < 12 * node_count) {
     SYNC;
     part = 0;
     FOR_EACH(node, node_count) {
@@ -151,8 +151,6 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
     }
     ++iteration;
     const float alpha = rz / curvature;
-    gained += alpha * rz;
-    const int last = alpha * rz < LEAST_GAIN * gained;
     part = 0;
     FOR_EACH(node, node_count) {
       float16 y[3] = {0, 0, 0};
@@ -167,7 +165,6 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
       }
     }
     const float next = total(part, scratch);
-    if (last) break;
     const float beta = next / rz;
     rz = next;
     FOR_EACH(node, node_count)

@@ -19,8 +19,8 @@ class BlockPcgSteps : public StepSolver {
         node_count_(equations.node_count()),
         local_(device_.info().is_gpu ? 128 : 1) {
     lay_out();
-    // Stops when an iteration gains less than a ten-thousandth of all before: the rest is for the next step.
-    const auto options = fmt::format("-DLANES={} -DLEAST_GAIN=1e-4f", local_);
+    // How far the residual falls in the preconditioned norm: what is left is for the next step.
+    const auto options = fmt::format("-DLANES={} -DRELATIVE=1e-4f", local_);
     const auto kernel = [&](const char* name) {
       return device_.kernel(embedded::solvers_gauss_newton_block_pcg_cl, name, options);
     };

@@ -717,7 +717,8 @@ COURSE_KERNEL begin(global int* status, SYSTEM_ARGUMENTS, global const float4* a
   }
 }
 
-COURSE_KERNEL step(global const int* status, SYSTEM_ARGUMENTS, global Course* kept, global float* trial) {
+COURSE_KERNEL next_step(global const int* status, SYSTEM_ARGUMENTS, global Course* kept,
+                        global float* trial) {
   local float scratch[LANES];
   if (status[0]) return;
   const System s = MAKE_SYSTEM;
@@ -728,8 +729,8 @@ COURSE_KERNEL step(global const int* status, SYSTEM_ARGUMENTS, global Course* ke
 }
 
 // `changes`: of the energy of what is coupled, by the step in hand.
-COURSE_KERNEL take(global int* status, SYSTEM_ARGUMENTS, global Course* kept, int change_count,
-                   global const float* changes, global float* unknowns) {
+COURSE_KERNEL take_step(global int* status, SYSTEM_ARGUMENTS, global Course* kept, int change_count,
+                        global const float* changes, global float* unknowns) {
   local float scratch[LANES];
   if (status[0]) return;
   const System s = MAKE_SYSTEM;

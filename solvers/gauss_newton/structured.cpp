@@ -42,12 +42,14 @@ std::string node_terms_source(const std::vector<const Term*>& terms) {
   std::string add, change, energy;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const auto& name = terms[i]->energy.equation.name;
-    text += fmt::format(
-        "{0}#undef NAME_RESIDUAL\n#undef NAME_JACOBIAN\n#undef TERM\n#undef ROWS\n"
-        "#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define TERM(x) x##_{1}\n"
-        "#define ROWS {2}\n{3}",
-        equation_source(terms[i]->energy, "float16"), name, terms[i]->energy.residuals,
-        embedded::solvers_gauss_newton_node_terms_cl);
+    if (std::none_of(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(i),
+                     [&](const Term* other) { return other->energy.equation.name == name; }))
+      text += fmt::format(
+          "{0}#undef NAME_RESIDUAL\n#undef NAME_JACOBIAN\n#undef TERM\n#undef ROWS\n"
+          "#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define TERM(x) x##_{1}\n"
+          "#define ROWS {2}\n{3}",
+          equation_source(terms[i]->energy, "float16"), name, terms[i]->energy.residuals,
+          embedded::solvers_gauss_newton_node_terms_cl);
     add += fmt::format("  add_{}(u, inside * weights[{}], packed, gradient);\n", name, i);
     change += fmt::format("  change += change_{}(u, v, inside * weights[{}]);\n", name, i);
     energy += fmt::format("  energy += energy_{}(u, inside * weights[{}]);\n", name, i);
@@ -247,8 +249,8 @@ class StructuredCourse : public Course {
     if (is_coupled()) {
       assemble_coupled_ = kernel("assemble_coupled");
       begin_ = kernel("begin");
-      step_ = kernel("step");
-      take_ = kernel("take");
+      step_ = kernel("next_step");
+      take_ = kernel("take_step");
       end_ = kernel("end");
     } else {
       solve_ = kernel("solve");
