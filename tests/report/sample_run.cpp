@@ -27,7 +27,9 @@ SampleRun::SampleRun(float left) {
   result.aligned_points = moved(result.source.points, 10);
   result.points = moved(result.source.points, target_depth - 800 - left);
   result.normals = result.source.normals;
-  result.alignment = {Eigen::Isometry3d(Eigen::Translation3d(0, 0, 10)), 123, 87};
+  result.alignment.motion = Eigen::Translation3d(0, 0, 10);
+  result.alignment.matches = 123;
+  result.alignment.inliers = 87;
   result.counts = {static_cast<int>(result.source.size()), 256, 1534, 2002, 3072, 14, 51};
   result.energy = {81234.5, 1021.25, {5000, 1021.25}};
   result.solver = {"gauss_newton", "cholesky", "converged"};
