@@ -16,12 +16,7 @@
 // to be evaluated between its steps: launches and waits would cost more than a second core gains. The order
 // of every sum is fixed.
 
-#ifndef CG_SPREAD
-#define CG_SPREAD 5
-#define CG_SHARE 0.05f
-#define LEAST_SHARE 0.1f
 #define ROUNDING 3.6e-15f  // the square of the relative rounding error of single precision
-#endif
 
 #if LANES == 1
 #define SYNC
@@ -455,7 +450,7 @@ int conjugate_gradients(const System* s, float least, local float* scratch) {
     const float alpha = rz / curvature;
     const float gain = alpha * rz;
     gained += gain;
-    const int last = gain * max(iteration, CG_SPREAD) < CG_SHARE * gained;
+    const int last = gain * max(iteration, 5) < 0.002f * gained;
     part = 0;
     FOR_EACH(chunk, s->chunks) {
       float16 z[12];
@@ -617,7 +612,7 @@ void make_step(const System* s, Course* course, local float* scratch) {
   course->wanted = s->tolerance * fmax(course->energy, 1e-9f * course->initial_energy);
   // What is left to gain is the residual times the spread of the spectrum, which the iterations so far tell.
   const float spread = fmax(1.0f, 0.0625f * course->longest * course->longest);
-  course->used = conjugate_gradients(s, fmax(LEAST_SHARE * course->wanted, course->noise) / spread, scratch);
+  course->used = conjugate_gradients(s, fmax(0.1f * course->wanted, course->noise) / spread, scratch);
   course->longest = max(course->longest, course->used);
   course->change = course->used > 0 ? try_step(s, scratch) : course->used == 0 ? 0.0f : INFINITY;
 }

@@ -23,7 +23,7 @@ class EveryLinearSolver : public SolverTest {
   }
 
   static std::string with(const std::string& linear_solver) {
-    return "{type: gauss_newton, max_iterations: 100, tolerance: 1e-7, linear_solver: " + linear_solver + "}";
+    return "{type: gauss_newton, max_iterations: 100, tolerance: 1e-8, linear_solver: " + linear_solver + "}";
   }
 
   /// To 1e-5 of the energy; `refusing`: linear solvers that must say that they cannot.
