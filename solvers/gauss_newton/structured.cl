@@ -16,12 +16,7 @@
 // to be evaluated between its steps: launches and waits would cost more than a second core gains. The order
 // of every sum is fixed.
 
-#ifndef CG_SPREAD
-#define CG_SPREAD 10
-#define CG_SHARE 0.1f
-#define LEAST_SHARE 0.1f
 #define ROUNDING 3.6e-15f  // the square of the relative rounding error of single precision
-#endif
 
 #if LANES == 1
 #define SYNC
@@ -278,8 +273,9 @@ typedef struct {
   float wanted;  // change of the energy that ends the course
   float change;  // of the energy, by the step in hand; without what is coupled
   int iteration, linear_iterations;
-  int used;   // iterations of the linear solver for the step in hand; -1: there was no solution
-  int fresh;  // the gradient has just been summed
+  int used;     // iterations of the linear solver for the step in hand; -1: there was no solution
+  int longest;  // most that a step has used
+  int fresh;    // the gradient has just been summed
   int termination;
 } Course;
 
@@ -413,9 +409,9 @@ static inline void pull(const System* s) {
 }
 #endif
 
-// Solves for the step until a further iteration would lower the energy by less than `least`, or by less
-// than a share of what has been gained. Returns the number of iterations, -1 when there is no solution.
-int conjugate_gradients(const System* s, float least, int most_iterations, local float* scratch) {
+// Solves for the step until the preconditioned residual falls below `least`, or an iteration gains but a
+// small share of those before. Returns the number of iterations, -1 when there is no solution.
+int conjugate_gradients(const System* s, float least, local float* scratch) {
   float16 part = 0;
   FOR_EACH(chunk, s->chunks) {
     float16 z[12];
@@ -431,9 +427,8 @@ int conjugate_gradients(const System* s, float least, int most_iterations, local
   float rz = total(part, scratch);
   float gained = 0;
   int iteration = 0;
-  // rz bounds from below, within the spread of the preconditioned spectrum, what is left to gain
   if (!isfinite(rz)) return -1;
-  while (iteration < most_iterations && rz > least) {
+  while (iteration < 12 * s->node_count && rz > least) {
     SYNC;
 #if COUPLED
     pull(s);
@@ -455,7 +450,7 @@ int conjugate_gradients(const System* s, float least, int most_iterations, local
     const float alpha = rz / curvature;
     const float gain = alpha * rz;
     gained += gain;
-    const int last = gain * CG_SPREAD < max(CG_SHARE * gained, least);
+    const int last = gain * max(iteration, 5) < 0.002f * gained;
     part = 0;
     FOR_EACH(chunk, s->chunks) {
       float16 z[12];
@@ -615,8 +610,10 @@ void make_step(const System* s, Course* course, local float* scratch) {
   FOR_EACH(chunk, s->chunks) part += prepare(s, chunk, course->damping, mean);
   course->noise = total(part, scratch);
   course->wanted = s->tolerance * fmax(course->energy, 1e-9f * course->initial_energy);
-  course->used = conjugate_gradients(s, fmax(LEAST_SHARE * course->wanted, course->noise),
-                                     12 * s->node_count + 1, scratch);
+  // What is left to gain is the residual times the spread of the spectrum, which the iterations so far tell.
+  const float spread = fmax(1.0f, 0.0625f * course->longest * course->longest);
+  course->used = conjugate_gradients(s, fmax(0.1f * course->wanted, course->noise) / spread, scratch);
+  course->longest = max(course->longest, course->used);
   course->change = course->used > 0 ? try_step(s, scratch) : course->used == 0 ? 0.0f : INFINITY;
 }
 

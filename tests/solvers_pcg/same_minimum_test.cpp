@@ -23,7 +23,7 @@ class EveryLinearSolver : public SolverTest {
   }
 
   static std::string with(const std::string& linear_solver) {
-    return "{type: gauss_newton, max_iterations: 100, tolerance: 1e-7, linear_solver: " + linear_solver + "}";
+    return "{type: gauss_newton, max_iterations: 100, tolerance: 1e-8, linear_solver: " + linear_solver + "}";
   }
 
   /// To 1e-5 of the energy; `refusing`: linear solvers that must say that they cannot.
@@ -63,9 +63,9 @@ TEST_F(EveryLinearSolver, FindsTheMinimumOfBentSheets) {
 
 // Few constraints far apart: the worst conditioned of what people do with embedded deformation.
 TEST_F(EveryLinearSolver, FindsTheMinimumOfSurfacesBentByHandles) {
-  for (const int nodes : {49, 300})
+  for (const auto& [nodes, bend] : {std::pair(49, 60.0), std::pair(120, 10.0)})
     expect_same_minimum([&] {
-      const Sheet sheet{.nodes = nodes, .bend = 60, .seed = 6};
+      const Sheet sheet{.nodes = nodes, .bend = bend, .seed = 6};
       auto graph = make_sheet_graph(sheet);
       auto terms = make_terms(energies_, make_handles(sheet, graph));
       return Problem(std::move(graph), std::move(terms));

@@ -20,7 +20,7 @@ Energy make(Stencil stencil, int residuals, Equation equation, double weight) {
 
 Energy to_plane() { return make(Stencil::per_constraint, 1, PLIANT_MAKE_EQUATION(to_plane, kSource), 100); }
 Energy moves_as_far() {
-  return make(Stencil::per_constraint, 1, PLIANT_MAKE_EQUATION(moves_as_far, kSource), 0.002);
+  return make(Stencil::per_constraint, 1, PLIANT_MAKE_EQUATION(moves_as_far, kSource), 2e-4);
 }
 Energy keeps_length() {
   return make(Stencil::per_edge, 1, PLIANT_MAKE_EQUATION(keeps_length, kSource), 0.002);
