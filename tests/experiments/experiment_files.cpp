@@ -9,6 +9,7 @@ ExperimentFiles::ExperimentFiles() { register_everything(registry_); }
 ExperimentPlan ExperimentFiles::plan(const std::string& text, const std::vector<std::string>& sets) const {
   write("base.yaml",
         "extends: methods/ed.yaml\n"
+        "alignment: none\n"
         "data: {type: synthetic_sheet, image_width: 160, image_height: 120, focal_length: 131.25}\n"
         "graph: {spacing: 12}\n");
   return plan_experiment({write("small.yaml", "extends: base.yaml\n" + text), sets, {}, {PLIANT_EXPERIMENTS}},

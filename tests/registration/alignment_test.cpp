@@ -141,7 +141,8 @@ std::unique_ptr<Alignment> make_features(std::int64_t min_inliers = 8) {
   return registry.make<Alignment>(Parameters("features", {{"ratio", 0.85},
                                                           {"iterations", std::int64_t{2000}},
                                                           {"inlier_distance", 30.0},
-                                                          {"min_inliers", min_inliers}}));
+                                                          {"min_inliers", min_inliers},
+                                                          {"max_deformation", 120.0}}));
 }
 
 TEST(FeatureAlignment, FindsHowAPlaneMoved) {
