@@ -574,9 +574,10 @@ float ordered_sum(global const float* values, int count) {
   return sum;
 }
 
-// `partials`: energy of edges and constraints. `assembled`: gradient of what separates, node by node.
+// `partials`: energy of edges and constraints; gets the energy per node behind them. `assembled`: gradient of
+// what separates, node by node.
 Course begin_course(const System* s, global const float* unknowns, global const float4* assembled,
-                    int partial_count, global const float* partials, local float* scratch) {
+                    int partial_count, global float* partials, local float* scratch) {
   FOR_EACH(chunk, s->chunks) {
     float16 m[16], g[16];
     for (int n = 0; n < 16; ++n) {
@@ -595,8 +596,11 @@ Course begin_course(const System* s, global const float* unknowns, global const 
       s->gradient[12 * chunk + entry] = g[entry];
     }
   }
+  const float per_node = energy_per_node(s, scratch);
+  if (get_local_id(0) == 0) partials[partial_count] = per_node;
+  SYNC;
   Course course = {0};
-  course.energy = ordered_sum(partials, partial_count) + energy_per_node(s, scratch);
+  course.energy = ordered_sum(partials, partial_count + 1);  // to the bit what `conclude` would say
   course.initial_energy = course.summed_energy = course.energy;
   course.damping = s->least_damping;
   course.fresh = 1;
@@ -704,7 +708,7 @@ COURSE_KERNEL solve(global int* status, SYSTEM_ARGUMENTS, global const float4* a
 #else
 // The same in pieces. While a step is in hand, `trial` holds it in the caller's order.
 COURSE_KERNEL begin(global int* status, SYSTEM_ARGUMENTS, global const float4* assembled, int partial_count,
-                    global const float* partials, global const float* unknowns, global Course* kept) {
+                    global float* partials, global const float* unknowns, global Course* kept) {
   local float scratch[LANES];
   const System s = MAKE_SYSTEM;
   const Course course = begin_course(&s, unknowns, assembled, partial_count, partials, scratch);
