@@ -3,12 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 
 #include "framework/core/error.h"
 
 namespace pliant {
 namespace {
+
+constexpr std::size_t least_kept = std::size_t{1} << 16;  // smaller buffers are cheap to make
+constexpr std::size_t most_kept = 256;
+
+bool is_unused(const cl::Buffer& buffer) { return buffer.getInfo<CL_MEM_REFERENCE_COUNT>() == 1; }
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -148,21 +154,31 @@ void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::si
 
 cl::Buffer Device::allocate(std::size_t bytes) const {
   // OpenCL has no empty buffers; one byte keeps empty arrays usable as kernel arguments.
-  const auto size = std::max<std::size_t>(bytes, 1);
+  if (bytes < least_kept) return make_buffer(std::max<std::size_t>(bytes, 1));
+  const std::size_t step = std::bit_floor(bytes) / 8;
+  const std::size_t size = (bytes + step - 1) / step * step;  // close sizes share buffers
   // The queue is in order: what still uses a dropped buffer comes before what its next owner enqueues.
-  const auto unused = [](const cl::Buffer& buffer) { return buffer.getInfo<CL_MEM_REFERENCE_COUNT>() == 1; };
   for (auto [entry, end] = buffers_.equal_range(size); entry != end; ++entry)
-    if (unused(entry->second)) return entry->second;
+    if (is_unused(entry->second)) return entry->second;
+  if (buffers_.size() >= most_kept) drop_unused_buffers();
+  return buffers_.emplace(size, make_buffer(size))->second;
+}
+
+cl::Buffer Device::make_buffer(std::size_t bytes) const {
   try {
-    return buffers_.emplace(size, cl::Buffer(context_, CL_MEM_READ_WRITE, size))->second;
+    return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
   } catch (const cl::Error&) {
-    std::erase_if(buffers_, [&](const auto& entry) { return unused(entry.second); });
+    drop_unused_buffers();
   }
   try {
-    return buffers_.emplace(size, cl::Buffer(context_, CL_MEM_READ_WRITE, size))->second;
+    return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
   } catch (const cl::Error& error) {
     fail(fmt::format("allocating {} bytes on {}", bytes, info_.name), error);
   }
+}
+
+void Device::drop_unused_buffers() const {
+  std::erase_if(buffers_, [](const auto& entry) { return is_unused(entry.second); });
 }
 
 cl::Buffer Device::upload(const void* data, std::size_t bytes) const {
