@@ -3,7 +3,8 @@
 // its equation.h over float; KERNEL(x) names the kernels after the energy.
 //
 // Of an axis-separable energy `forces` keeps per instance J^T r along x, y, z and J^T J (the same for each
-// axis, 0 between them); of others `forces` keeps J^T r and `couplings` J^T J (xx xy xz yy yz zz).
+// axis, 0 between them); of others, and of those with a robust loss, whose weights change with the residual,
+// `forces` keeps J^T r and `couplings` J^T J (xx xy xz yy yz zz).
 
 #define CHUNK 64  // instances per work-item: partial sums of the energy in order, no atomics
 
@@ -60,15 +61,15 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
     force = factor * (float4)(r[0], r[1], r[2], 1);
     energy += factor * (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
 #else
-    const float factor = weight * confidence[i];
-    if (factor > 0) {  // else not in force: what stands in data may be anything
+    if (weight * confidence[i] > 0) {  // else not in force: what stands in data may be anything
       const float u[3] = {moved.x, moved.y, moved.z};
       float given[6];
       for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
       NAME_RESIDUAL(u, given, r);
       float sum = 0;
       for (int row = 0; row < ROWS; ++row) sum += r[row] * r[row];
-      energy += factor * sum;
+      energy += weight * confidence[i] * LOSS_VALUE(sum);
+      const float factor = weight * confidence[i] * LOSS_WEIGHT(sum);
 #if SEPARABLE
       float scale;
       NAME_ROW(given, &scale);
@@ -113,8 +114,17 @@ kernel void KERNEL(change)(global const int* status, int count, float weight, gl
     for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
     NAME_RESIDUAL(u, given, before);
     NAME_RESIDUAL(v, given, after);
+#if ROBUST
+    float squared_before = 0, squared_after = 0;
+    for (int row = 0; row < ROWS; ++row) {
+      squared_before += before[row] * before[row];
+      squared_after += after[row] * after[row];
+    }
+    sum += factor * (LOSS_VALUE(squared_after) - LOSS_VALUE(squared_before));
+#else
     for (int row = 0; row < ROWS; ++row)
       sum += factor * (after[row] - before[row]) * (after[row] + before[row]);
+#endif
   }
   changes[first_change + get_global_id(0)] = sum;
 }

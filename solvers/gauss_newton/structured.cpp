@@ -25,14 +25,21 @@ constexpr std::size_t course_bytes = 64;  // no less than a Course in structured
 
 int rounded_up(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
 
+/// Whether J^T J of the energy is the same for x, y and z, couples none of them, and stays as it is.
+bool is_separable(const Energy& energy) {
+  return energy.equation.axis_separable() && !energy.loss.is_robust();
+}
+
 std::string rows_source(const Energy& energy) {
   const auto& name = energy.equation.name;
   return fmt::format(
-      "{0}#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define NAME_ROW {1}_row\n"
+      "{0}{6}#define ROBUST {7}\n#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN "
+      "{1}_jacobian\n#define NAME_ROW {1}_row\n"
       "#define KERNEL(x) x##_{1}\n#define ROWS {2}\n#define PER_EDGE {3}\n#define SEPARABLE {4}\n{5}",
       equation_source(energy, "float"), name, energy.residuals,
-      static_cast<int>(energy.stencil == Stencil::per_edge),
-      static_cast<int>(energy.equation.axis_separable()), embedded::solvers_gauss_newton_rows_cl);
+      static_cast<int>(energy.stencil == Stencil::per_edge), static_cast<int>(is_separable(energy)),
+      embedded::solvers_gauss_newton_rows_cl, loss_source(energy.loss),
+      static_cast<int>(energy.loss.is_robust()));
 }
 
 /// The functions of every term per node, and three that call them all.
@@ -81,11 +88,12 @@ struct Kind {
     entries = device.upload(lists.entries);
     places = device.upload(block_places);
     arms = device.allocate(4 * sizeof(float) * incidences.nodes.size());
-    forces = device.allocate(4 * sizeof(float) * incidences.size());
+    // Zeros: a set of constraints may have no term that separates.
+    forces = device.upload(std::vector<float>(4 * incidences.size(), 0.0F));
   }
 };
 
-bool couples_axes(const Term& term) { return !term.energy.equation.axis_separable(); }
+bool couples_axes(const Term& term) { return !is_separable(term.energy); }
 
 /// A term per edge or per constraint, and where its instances stand among those of its kind.
 struct RowTerm {
