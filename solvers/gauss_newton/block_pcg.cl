@@ -88,12 +88,12 @@ float total(float4 part, local float* scratch) {
 #else
   scratch[get_local_id(0)] = sum;
   for (int others = LANES / 2; others > 0; others /= 2) {
-    barrier(CLK_LOCAL_MEM_FENCE);
+    SYNC;
     if (get_local_id(0) < others) scratch[get_local_id(0)] += scratch[get_local_id(0) + others];
   }
-  barrier(CLK_LOCAL_MEM_FENCE);
+  SYNC;
   const float all = scratch[0];
-  barrier(CLK_LOCAL_MEM_FENCE);
+  SYNC;
   return all;
 #endif
 }

@@ -2,9 +2,9 @@
 // its three values is sum over slots of arm . (row of the node's [D | t]). Compiled once per energy, after
 // its equation.h over float; KERNEL(x) names the kernels after the energy.
 //
-// Of an axis-separable energy `forces` keeps per instance J^T r along x, y, z and J^T J (the same for each
-// axis, 0 between them); of others, and of those with a robust loss, whose weights change with the residual,
-// `forces` keeps J^T r and `couplings` J^T J (xx xy xz yy yz zz).
+// Of an axis-separable energy without a robust loss (SEPARABLE) `forces` keeps per instance J^T r along x, y,
+// z and J^T J (the same for each axis, 0 between them); of others `forces` keeps J^T r and `couplings` J^T J
+// (xx xy xz yy yz zz). LOSS_VALUE and LOSS_WEIGHT are the loss of the squared residual.
 
 #define CHUNK 64  // instances per work-item: partial sums of the energy in order, no atomics
 
@@ -61,20 +61,21 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
     force = factor * (float4)(r[0], r[1], r[2], 1);
     energy += factor * (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
 #else
-    if (weight * confidence[i] > 0) {  // else not in force: what stands in data may be anything
+    float factor = weight * confidence[i];
+    if (factor > 0) {  // else not in force: what stands in data may be anything
       const float u[3] = {moved.x, moved.y, moved.z};
       float given[6];
       for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
       NAME_RESIDUAL(u, given, r);
       float sum = 0;
       for (int row = 0; row < ROWS; ++row) sum += r[row] * r[row];
-      energy += weight * confidence[i] * LOSS_VALUE(sum);
-      const float factor = weight * confidence[i] * LOSS_WEIGHT(sum);
+      energy += factor * LOSS_VALUE(sum);
 #if SEPARABLE
       float scale;
       NAME_ROW(given, &scale);
       force = factor * scale * (float4)(r[0], r[1], r[2], scale);
 #else
+      factor *= LOSS_WEIGHT(sum);
       float J[3 * ROWS];
       NAME_JACOBIAN(u, given, J);
       for (int row = 0; row < ROWS; ++row) {
@@ -114,17 +115,18 @@ kernel void KERNEL(change)(global const int* status, int count, float weight, gl
     for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
     NAME_RESIDUAL(u, given, before);
     NAME_RESIDUAL(v, given, after);
-#if ROBUST
-    float squared_before = 0, squared_after = 0;
+    float squared = 0, gain = 0;
     for (int row = 0; row < ROWS; ++row) {
-      squared_before += before[row] * before[row];
-      squared_after += after[row] * after[row];
+      squared += before[row] * before[row];
+      gain += (after[row] - before[row]) * (after[row] + before[row]);
     }
-    sum += factor * (LOSS_VALUE(squared_after) - LOSS_VALUE(squared_before));
-#else
-    for (int row = 0; row < ROWS; ++row)
-      sum += factor * (after[row] - before[row]) * (after[row] + before[row]);
+#if ROBUST
+    if (fabs(gain) < 0.01f * squared)
+      gain *= LOSS_WEIGHT(squared + 0.5f * gain);
+    else
+      gain = LOSS_VALUE(fmax(squared + gain, 0.0f)) - LOSS_VALUE(squared);
 #endif
+    sum += factor * gain;
   }
   changes[first_change + get_global_id(0)] = sum;
 }

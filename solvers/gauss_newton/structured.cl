@@ -55,6 +55,7 @@ static inline void add_rows(int node, const int k, Kind kind, global const ushor
   for (int e = kind.starts[node]; e < kind.starts[node + 1]; ++e) {
     const int first = kind.entries[e] / SLOTS * k;
     const float weight = kind.forces[kind.entries[e] / SLOTS].w;
+    if (weight == 0) continue;
     const float16 left = TILE(weight * kind.arms[first + kind.entries[e] % SLOTS]);
     for (int slot = 0; slot < k; ++slot) {
       const float16 product = SPREAD(kind.arms[first + slot]) * left;
@@ -158,12 +159,12 @@ float total(float16 part, local float* scratch) {
 #else
   scratch[get_local_id(0)] = sum;
   for (int others = LANES / 2; others > 0; others /= 2) {
-    barrier(CLK_LOCAL_MEM_FENCE);
+    SYNC;
     if (get_local_id(0) < others) scratch[get_local_id(0)] += scratch[get_local_id(0) + others];
   }
-  barrier(CLK_LOCAL_MEM_FENCE);
+  SYNC;
   const float all = scratch[0];
-  barrier(CLK_LOCAL_MEM_FENCE);
+  SYNC;
   return all;
 #endif
 }

@@ -25,21 +25,21 @@ constexpr std::size_t course_bytes = 64;  // no less than a Course in structured
 
 int rounded_up(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
 
-/// Whether J^T J of the energy is the same for x, y and z, couples none of them, and stays as it is.
-bool is_separable(const Energy& energy) {
+/// Whether an energy's J^T J is M (x) I_3 and does not change from step to step: then it is assembled once.
+bool enters_matrix(const Energy& energy) {
   return energy.equation.axis_separable() && !energy.loss.is_robust();
 }
 
 std::string rows_source(const Energy& energy) {
   const auto& name = energy.equation.name;
   return fmt::format(
-      "{0}{6}#define ROBUST {7}\n#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN "
-      "{1}_jacobian\n#define NAME_ROW {1}_row\n"
-      "#define KERNEL(x) x##_{1}\n#define ROWS {2}\n#define PER_EDGE {3}\n#define SEPARABLE {4}\n{5}",
+      "{0}#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define NAME_ROW {1}_row\n"
+      "#define KERNEL(x) x##_{1}\n#define ROWS {2}\n#define PER_EDGE {3}\n#define SEPARABLE {4}\n"
+      "#define ROBUST {5}\n{6}{7}",
       equation_source(energy, "float"), name, energy.residuals,
-      static_cast<int>(energy.stencil == Stencil::per_edge), static_cast<int>(is_separable(energy)),
-      embedded::solvers_gauss_newton_rows_cl, loss_source(energy.loss),
-      static_cast<int>(energy.loss.is_robust()));
+      static_cast<int>(energy.stencil == Stencil::per_edge), static_cast<int>(enters_matrix(energy)),
+      static_cast<int>(energy.loss.is_robust()), loss_source(energy.loss),
+      embedded::solvers_gauss_newton_rows_cl);
 }
 
 /// The functions of every term per node, and three that call them all.
@@ -88,12 +88,9 @@ struct Kind {
     entries = device.upload(lists.entries);
     places = device.upload(block_places);
     arms = device.allocate(4 * sizeof(float) * incidences.nodes.size());
-    // Zeros: a set of constraints may have no term that separates.
-    forces = device.upload(std::vector<float>(4 * incidences.size(), 0.0F));
+    forces = device.allocate(4 * sizeof(float) * incidences.size());
   }
 };
-
-bool couples_axes(const Term& term) { return !is_separable(term.energy); }
 
 /// A term per edge or per constraint, and where its instances stand among those of its kind.
 struct RowTerm {
@@ -156,9 +153,9 @@ class StructuredCourse : public Course {
       RowTerm made{&term, &edges_, 0, edge_count, 0, partial_count_, coupled_partial_count_, {}, {}};
       if (term.constraints) {
         made.kind = &constraints_;
-        made.first = first_of(term.constraints.get(), couples_axes(term), made.add);
+        made.first = first_of(term.constraints.get(), !enters_matrix(term.energy), made.add);
         made.count = static_cast<int>(term.constraints->size());
-        if (couples_axes(term)) coupled_partial_count_ += made.partials();
+        if (!enters_matrix(term.energy)) coupled_partial_count_ += made.partials();
       } else {
         const auto own = edge_incidences(problem_.graph()).nodes;
         made.first = static_cast<int>(edges_.incidences.size());
@@ -234,7 +231,8 @@ class StructuredCourse : public Course {
     constexpr auto number = sizeof(float);
     const auto instances = is_coupled() ? constraints_.incidences.size() : 0;
     if (!is_coupled()) nodes = 0;
-    // Zeros: a set of constraints may have no such term.
+    // Zeros: a set of constraints may have terms of only one of the two sorts.
+    if (is_coupled()) constraints_.forces = device_.upload(std::vector<float>(4 * instances, 0.0F));
     couplings_ = device_.upload(std::vector<float>(8 * instances, 0.0F));
     coupled_forces_ = device_.upload(std::vector<float>(4 * instances, 0.0F));
     pulls_ = device_.allocate(number * 4 * instances);
@@ -265,7 +263,7 @@ class StructuredCourse : public Course {
     }
     for (auto& term : row_terms_) {
       term.evaluate = row_kernel(term, "evaluate");
-      if (couples_axes(*term.term)) term.change = row_kernel(term, "change");
+      if (!enters_matrix(term.term->energy)) term.change = row_kernel(term, "change");
     }
   }
 
@@ -312,14 +310,14 @@ class StructuredCourse : public Course {
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       // The first time what was evaluated at the start still holds.
       for (auto& term : row_terms_)
-        if (couples_axes(*term.term) && iteration > 0) evaluate("jacobian", term, status);
+        if (!enters_matrix(term.term->energy) && iteration > 0) evaluate("jacobian", term, status);
       device_.run("mm", assemble_coupled_, static_cast<std::size_t>(padded_ / lanes), 1, status,
                   padded_ / lanes, count_of(constraints_), constraints_.nodes, constraints_.starts,
                   constraints_.entries, constraints_.arms, constraints_.forces, couplings_, coupled_forces_,
                   coupled_diagonal_, coupled_gradient_);
       run_course(step_, status, course_, trial_);
       for (auto& term : row_terms_)
-        if (couples_axes(*term.term)) measure_change(term, status);
+        if (!enters_matrix(term.term->energy)) measure_change(term, status);
       run_course(take_, status, course_, coupled_partial_count_, changes_, unknowns);
     }
     run_course(end_, status, course_, partial_count_, partials_, unknowns);
@@ -333,7 +331,7 @@ class StructuredCourse : public Course {
     device_.run(stage, term.evaluate, static_cast<std::size_t>(term.partials()), 1, status, term.count,
                 weight_of(term), problem_.unknowns().device(device_), term.first, term.kind->nodes,
                 term.kind->arms, node_points, data, confidence, term.add,
-                couples_axes(*term.term) ? coupled_forces_ : term.kind->forces, couplings_,
+                !enters_matrix(term.term->energy) ? coupled_forces_ : term.kind->forces, couplings_,
                 term.first_partial, partials_);
   }
 
@@ -390,7 +388,7 @@ class Structured : public LinearSolver {
 
 std::string structured_obstacle(const Problem& problem) {
   for (const auto& term : problem.terms())
-    if (term.energy.stencil == Stencil::per_edge && couples_axes(term))
+    if (term.energy.stencil == Stencil::per_edge && !enters_matrix(term.energy))
       return fmt::format("energy {} couples the axes of neighbouring nodes", term.energy.equation.name);
   return "";
 }

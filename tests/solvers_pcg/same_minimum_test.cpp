@@ -81,6 +81,18 @@ TEST_F(EveryLinearSolver, TakesTermsOfConstraintsThatCoupleTheAxes) {
       [&] { return problem_of({.nodes = 30, .constraints = 400, .length_unit = 1000}, {to_plane()}); });
 }
 
+TEST_F(EveryLinearSolver, TakesRobustLosses) {
+  for (const auto& loss : loss_names()) {
+    SCOPED_TRACE(loss);
+    expect_same_minimum([&] {
+      auto energies = energies_;
+      for (auto& energy : energies)
+        if (energy.stencil == Stencil::per_constraint) energy.loss = {loss, 40};
+      return make_sheet_problem({.nodes = 30, .constraints = 400, .bend = 10}, energies);
+    });
+  }
+}
+
 TEST_F(EveryLinearSolver, TakesSetsOfConstraintsOverDifferentNumbersOfNodes) {
   expect_same_minimum([&] {
     const Sheet sheet{.nodes = 24, .constraints = 200};
