@@ -11,7 +11,6 @@
 namespace pliant {
 namespace {
 
-constexpr std::size_t least_kept = std::size_t{1} << 16;  // smaller buffers are cheap to make
 constexpr std::size_t most_kept = 256;
 
 bool is_unused(const cl::Buffer& buffer) { return buffer.getInfo<CL_MEM_REFERENCE_COUNT>() == 1; }
@@ -154,9 +153,8 @@ void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::si
 
 cl::Buffer Device::allocate(std::size_t bytes) const {
   // OpenCL has no empty buffers; one byte keeps empty arrays usable as kernel arguments.
-  if (bytes < least_kept) return make_buffer(std::max<std::size_t>(bytes, 1));
-  const std::size_t step = std::bit_floor(bytes) / 8;
-  const std::size_t size = (bytes + step - 1) / step * step;  // close sizes share buffers
+  const std::size_t step = std::max<std::size_t>(std::bit_floor(bytes) / 8, 1);
+  const std::size_t size = (std::max<std::size_t>(bytes, 1) + step - 1) / step * step;  // close sizes share
   // The queue is in order: what still uses a dropped buffer comes before what its next owner enqueues.
   for (auto [entry, end] = buffers_.equal_range(size); entry != end; ++entry)
     if (is_unused(entry->second)) return entry->second;

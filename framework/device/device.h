@@ -64,8 +64,8 @@ class Device {
     enqueue(stage, kernel, global, local);
   }
 
-  /// A buffer of at least so many uninitialised bytes; DeviceError names the size when it does not fit. Large
-  /// buffers that all others have dropped are given out again: fresh pages cost more than most kernels.
+  /// A buffer of at least so many uninitialised bytes; DeviceError names the size when it does not fit.
+  /// Buffers that all others have dropped are given out again: fresh pages cost more than most kernels.
   cl::Buffer allocate(std::size_t bytes) const;
 
   /// A buffer made of host values; unlike write() this does not wait for the device.
@@ -113,9 +113,8 @@ class Device {
   Program& program_of(std::string_view source, const std::string& options);
   std::string all_options(const std::string& options) const;
 
-  std::unordered_map<std::string, Program> programs_;  // by options and source
-  mutable std::multimap<std::size_t, cl::Buffer>
-      buffers_;  // by size: the large ones that allocate() gave out
+  std::unordered_map<std::string, Program> programs_;       // by options and source
+  mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: what allocate() gave out
   bool measuring_ = false;
   std::vector<std::pair<std::string, cl::Event>> events_;
 };

@@ -6,7 +6,7 @@ endif()
 # One thread and unoptimised kernels: the simulator's own record of what was written is neither safe with several
 # threads nor complete for vectors that live across loops (version 21.10).
 execute_process(
-  COMMAND ${OCLGRIND} --num-threads 1 --data-races --uninitialized --build-options -cl-opt-disable
+  COMMAND ${OCLGRIND} --num-threads 1 ${CHECKS} --build-options -cl-opt-disable
           ${PROGRAM} run ${EXPERIMENT} --out ${OUT}
   OUTPUT_VARIABLE PRINTED ERROR_VARIABLE PRINTED RESULT_VARIABLE CODE)
 message("${PRINTED}")
