@@ -5,47 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "experiments/report/sheet.h"
 
 namespace pliant {
 namespace {
 
-constexpr int margin = 20;
-constexpr int header = 72;
 constexpr int bar_width = 22;
-constexpr int label_width = 78;
-constexpr int least_width = 480;
-const cv::Scalar paper(255, 255, 255);
-const cv::Scalar ink(40, 34, 30);
-const cv::Scalar quiet_ink(105, 96, 90);
 const cv::Scalar nothing(236, 233, 231);
-
-void blend(cv::Vec3b& pixel, const cv::Scalar& color, double part) {
-  for (int i = 0; i < 3; ++i)
-    pixel[i] = cv::saturate_cast<std::uint8_t>(pixel[i] + part * (color[i] - pixel[i]));
-}
-
-/// OpenCV's stroke fonts are ragged at small sizes, so text is drawn large and averaged down.
-void draw_text(cv::Mat& canvas, const std::string& text, cv::Point baseline, double size, int stroke,
-               const cv::Scalar& color) {
-  constexpr int enlarged = 4;
-  int below = 0;
-  const cv::Size extent = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 2, &below);
-  below += 4;
-  const cv::Rect whole(baseline.x, baseline.y - extent.height - 4, extent.width + 8,
-                       extent.height + 4 + below);
-  const cv::Rect place = whole & cv::Rect({0, 0}, canvas.size());
-  cv::Mat coverage(place.height * enlarged, place.width * enlarged, CV_8U, cv::Scalar(0));
-  cv::putText(coverage, text, (baseline - place.tl()) * enlarged, cv::FONT_HERSHEY_SIMPLEX, size * enlarged,
-              255, stroke, cv::LINE_AA);
-  cv::resize(coverage, coverage, place.size(), 0, 0, cv::INTER_AREA);
-  for (int v = 0; v < place.height; ++v) {
-    for (int u = 0; u < place.width; ++u) {
-      blend(canvas.at<cv::Vec3b>(place.y + v, place.x + u), color, coverage.at<std::uint8_t>(v, u) / 255.0);
-    }
-  }
-}
 
 /// The 256 colours of a perceptually uniform map, lowest first.
 cv::Mat palette(ColorScale::Map map) {
@@ -92,7 +60,8 @@ std::string label(double tick, const ColorScale& scale, const Image<float>& valu
   return number;
 }
 
-void draw_bar(cv::Mat& canvas, const cv::Rect& place, const ColorScale& scale, const Image<float>& values) {
+void draw_bar(cv::Mat& canvas, const cv::Rect& legend, const ColorScale& scale, const Image<float>& values) {
+  const cv::Rect place(legend.x, legend.y, bar_width, legend.height);
   const cv::Mat colors = palette(scale.map);
   for (int row = 0; row < place.height; ++row) {
     const int index = 255 - row * 255 / (place.height - 1);
@@ -119,18 +88,9 @@ double round_up(double value) {
 
 std::vector<std::uint8_t> draw_heat_map(const Image<float>& values, const ColorScale& scale,
                                         const std::string& title, const std::string& subtitle) {
-  cv::Mat picture = colorize(values, scale);
-  const int enlarged = std::max(1, (least_width + picture.cols - 1) / picture.cols);
-  cv::resize(picture, picture, {}, enlarged, enlarged, cv::INTER_NEAREST);
-  cv::Mat canvas(header + picture.rows + margin, margin + picture.cols + margin + bar_width + label_width,
-                 CV_8UC3, paper);
-  picture.copyTo(canvas(cv::Rect(margin, header, picture.cols, picture.rows)));
-  draw_bar(canvas, cv::Rect(margin + picture.cols + margin, header, bar_width, picture.rows), scale, values);
-  draw_text(canvas, title, {margin, 31}, 0.65, 6, ink);
-  draw_text(canvas, subtitle, {margin, 56}, 0.48, 4, quiet_ink);
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", canvas, png);
-  return png;
+  Sheet sheet(colorize(values, scale), title, subtitle);
+  draw_bar(sheet.canvas(), sheet.legend(), scale, values);
+  return sheet.png();
 }
 
 }  // namespace pliant

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "experiments/report/graph_drawing.h"
 #include "experiments/report/heat_map.h"
 #include "framework/io/file.h"
 
@@ -115,6 +116,32 @@ std::vector<Picture> draw_errors(const ReportInput& input) {
   return pictures;
 }
 
+/// Where the nodes lie in the source as it was given; they are known as the alignment moved them.
+std::vector<Eigen::Vector2d> node_pixels(const ReportInput& input) {
+  const Camera& camera = input.pair.camera;
+  const Eigen::Isometry3d undo = input.run.result.alignment.motion.inverse();
+  std::vector<Eigen::Vector2d> pixels;
+  for (const Eigen::Vector3f& node : input.run.result.node_positions)
+    pixels.push_back(camera.project(undo * node.cast<double>()));
+  return pixels;
+}
+
+std::string count_nodes(const RegistrationResult& result) {
+  const std::string nodes = fmt::format("{} nodes", result.node_positions.size());
+  if (result.graph_cells.empty()) return nodes;
+  const auto virtual_cells = std::count_if(result.graph_cells.begin(), result.graph_cells.end(),
+                                           [](const GraphCell& cell) { return cell.is_virtual; });
+  return fmt::format("{}, and {} virtual ones without a point at the centre", nodes, virtual_cells);
+}
+
+Picture draw_last_graph(const ReportInput& input) {
+  const RegistrationResult& result = input.run.result;
+  const GraphDrawing graph{at_source_pixels(input, depths(result.source.points)), result.graph_cells,
+                           node_pixels(input)};
+  const char* caption = "Deformation graph at the end, over the source";
+  return {"graph.png", caption, draw_graph(graph, caption, count_nodes(result))};
+}
+
 class PicturesReport : public Report {
  public:
   std::vector<std::filesystem::path> write(const ReportInput& input,
@@ -133,11 +160,12 @@ class PicturesReport : public Report {
 std::vector<Picture> draw_pictures(const ReportInput& input) {
   std::vector<Picture> pictures = draw_depths(input);
   for (Picture& picture : draw_errors(input)) pictures.push_back(std::move(picture));
+  pictures.push_back(draw_last_graph(input));
   return pictures;
 }
 
 void register_pictures_report(Registry& registry) {
-  registry.add<Report>("pictures", "Depth and errors as PNG pictures with a colour bar in mm", {},
+  registry.add<Report>("pictures", "Depth, errors and the deformation graph as PNG pictures", {},
                        [](const Parameters&, const Registry&) { return std::make_unique<PicturesReport>(); });
 }
 

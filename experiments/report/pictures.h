@@ -17,8 +17,8 @@ struct Picture {
 };
 
 /// Depth of source and target, and per source pixel the distance to the nearest target point before
-/// anything, after the initial alignment (only where that moved the source) and at the end. Depths share
-/// one colour scale, errors another, in mm.
+/// anything, after the initial alignment (only where that moved the source) and at the end; depths share
+/// one colour scale, errors another, in mm. Last the deformation graph as it was in the end.
 std::vector<Picture> draw_pictures(const ReportInput& input);
 
 /// Adds the report `pictures`: what draw_pictures gives, as PNG files.

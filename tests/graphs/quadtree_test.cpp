@@ -184,7 +184,7 @@ TEST_F(QuadtreeTest, ChangesOnlyBeyondTheThresholds) {
   for (const float residual : {2.0F, 1.5F, 1.0F, -1.0F})
     EXPECT_FALSE(nodes->adapt(device_, everywhere(surface, residual)));
   EXPECT_TRUE(nodes->adapt(device_, everywhere(surface, 0.5F)));
-  EXPECT_LT(nodes->points().size(), refined.size() / 4);
+  EXPECT_LT(nodes->points().size(), refined.size() / 2);
 }
 
 TEST_F(QuadtreeTest, CollapsesToWhereItBeganWithoutHoles) {

@@ -89,7 +89,7 @@ TEST(Page, OmitsTruthThatIsNotKnown) {
 TEST(Page, NeedsNoOtherFile) {
   const SampleRun sample(4);
   const std::string page = make_page(sample.input());
-  EXPECT_EQ(count(page, "<img"), 5u);
+  EXPECT_EQ(count(page, "<img"), 6u);
   for (const Picture& picture : draw_pictures(sample.input())) {
     EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64," + base64(picture.png)));
   }

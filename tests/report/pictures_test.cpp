@@ -33,10 +33,12 @@ TEST(Pictures, WritesReadableFilesOfOneSize) {
   const auto files = make_report("pictures")->write(sample.input(), folder);
   EXPECT_THAT(files, testing::ElementsAre(folder / "depth_source.png", folder / "depth_target.png",
                                           folder / "error_initial.png", folder / "error_aligned.png",
-                                          folder / "error_final.png"));
+                                          folder / "error_final.png", folder / "graph.png"));
   const cv::Size size = cv::imread(files[0].string()).size();
   EXPECT_GT(size.area(), 480 * 360);
-  for (const auto& file : files) EXPECT_EQ(cv::imread(file.string()).size(), size) << file;
+  for (const auto& file : files)
+    EXPECT_TRUE(file.filename() == "graph.png" || cv::imread(file.string()).size() == size) << file;
+  EXPECT_EQ(cv::imread(files.back().string()).rows, 72 + 48 * 17 + 20);
 }
 
 TEST(Pictures, ErrorsFallOnOneScale) {
@@ -78,7 +80,42 @@ TEST(Pictures, OmitTheAlignmentThatMovedNothing) {
 TEST(Pictures, PerfectRegistrationHasAScaleToo) {
   SampleRun sample(0);
   sample.run.result.aligned_points = sample.run.result.points;
-  EXPECT_EQ(draw_pictures(sample.input()).size(), 5u);
+  EXPECT_EQ(draw_pictures(sample.input()).size(), 6u);
+}
+
+/// The colour of a place in pixels of the source: the graph's picture is the square of 48 pixels around it,
+/// enlarged seventeenfold.
+cv::Vec3b color_at(const Picture& picture, double u, double v) {
+  const cv::Mat image = cv::imdecode(picture.png, cv::IMREAD_COLOR);
+  return image.at<cv::Vec3b>(72 + static_cast<int>(17 * (v + 9)), 20 + static_cast<int>(17 * (u + 4)));
+}
+
+bool is_grey(const cv::Vec3b& color) { return color[0] == color[1] && color[1] == color[2]; }
+
+TEST(Pictures, ShowTheCellsOfTheGraphByLevelAndCrossVirtualOnesOut) {
+  SampleRun sample(4);
+  sample.run.result.graph_cells = {
+      {12, 4, 20, 12, 2, false}, {20, 4, 28, 12, 2, true}, {12, 12, 16, 16, 3, false}};
+  const Picture graph = find(draw_pictures(sample.input()), "graph.png");
+  const cv::Vec3b second = color_at(graph, 14, 7);
+  EXPECT_TRUE(is_grey(color_at(graph, 30, 20)));
+  EXPECT_FALSE(is_grey(second));
+  EXPECT_EQ(color_at(graph, 22, 7), second);
+  EXPECT_NE(color_at(graph, 13, 14), second);
+  EXPECT_EQ(color_at(graph, 16, 8), second);  // no cross where there is a node
+  EXPECT_NE(color_at(graph, 24, 8), second);
+}
+
+TEST(Pictures, ShowTheNodesOfTheGraphWhereTheSourceWasGiven) {
+  SampleRun sample(4);
+  const std::size_t point = 500;
+  const Eigen::Vector2i pixel = sample.run.result.source.pixels[point];
+  const auto color_there = [&] {
+    return color_at(find(draw_pictures(sample.input()), "graph.png"), pixel.x() + 0.5, pixel.y() + 0.5);
+  };
+  const cv::Vec3b without = color_there();
+  sample.run.result.node_positions = {sample.run.result.aligned_points[point]};
+  EXPECT_NE(color_there(), without);
 }
 
 TEST(Pictures, SayWhichFileCannotBeWritten) {
