@@ -10,7 +10,8 @@ void register_regularization(Registry& registry) {
              {.stencil = Stencil::per_edge,
               .residuals = 3,
               .in_length = true,
-              .equation = PLIANT_MAKE_SEPARABLE_EQUATION(regularization, embedded::energies_regularization_equation_h),
+              .equation = PLIANT_MAKE_SEPARABLE_EQUATION(regularization,
+                                                         embedded::energies_regularization_equation_h),
               .weight = 10});
 }
 

@@ -43,8 +43,8 @@ Lanes exp2_of_negative(Lanes x) {
 
 // `steps`: -log2 of the spatial weight of each pixel of the window, row by row. `sharpness`:
 // log2(e) / (2 sigma_c^2). Writes the whole map, halo included.
-kernel void bilateral(global const float* depth, int stride, int2 size, int radius,
-                      constant float* steps, float sharpness, global float* filtered) {
+kernel void bilateral(global const float* depth, int stride, int2 size, int radius, constant float* steps,
+                      float sharpness, global float* filtered) {
   const int start = get_global_id(0) * WIDTH;
   if (start >= stride * (size.y + 2 * HALO)) return;
   const Lanes centre = LOAD(depth + start);
@@ -147,8 +147,8 @@ Vector plane_normal(Symmetric covariance) {
 
 // The plane through the points of the window whose depth is near that of the centre, which has depth `z` on
 // the rays (ray.x, ray.y, 1); neighbouring rays are `pixel` apart.
-Vector window_normal(global const float* centre, int stride, int radius, float depth_step, Lanes z, Lanes ray_x,
-                     Lanes ray_y, float2 pixel) {
+Vector window_normal(global const float* centre, int stride, int radius, float depth_step, Lanes z,
+                     Lanes ray_x, Lanes ray_y, float2 pixel) {
   Lanes count = 0;
   Vector sum = {0, 0, 0};  // relative to the centre, so that nothing cancels
   Symmetric squares = {0, 0, 0, 0, 0, 0};

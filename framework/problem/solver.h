@@ -18,8 +18,8 @@ struct SolverSummary {
   std::vector<double> energies;  ///< after each iteration, rejected steps included (the energy stays)
   int iterations = 0;
   int linear_iterations = 0;  ///< of an iterative linear solver, over all iterations
-  std::string termination;  ///< "converged", "max_iterations", "no_decrease" or "failed"
-  StageTimes time_ms;       ///< host stages; device stages are recorded by the Device
+  std::string termination;    ///< "converged", "max_iterations", "no_decrease" or "failed"
+  StageTimes time_ms;         ///< host stages; device stages are recorded by the Device
 
   /// A few lines for people.
   std::string report() const;

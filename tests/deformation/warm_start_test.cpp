@@ -58,8 +58,9 @@ class WarmStartTest : public testing::Test {
     const auto first = 4 * static_cast<std::ptrdiff_t>(point);
     const auto& ids = influences_.nodes.host();
     const auto& weights = influences_.weights.host();
-    const Influences own{4, Array<int>(std::vector<int>(ids.begin() + first, ids.begin() + first + 4)),
-                         Array<float>(std::vector<float>(weights.begin() + first, weights.begin() + first + 4))};
+    const Influences own{
+        4, Array<int>(std::vector<int>(ids.begin() + first, ids.begin() + first + 4)),
+        Array<float>(std::vector<float>(weights.begin() + first, weights.begin() + first + 4))};
     const PointSet result = warp_reference(rest, own, Array<float>(flat(pick(points_, nodes_))), affine_);
     return Eigen::Map<const Eigen::Vector3f>(result.points.host().data());
   }
@@ -86,14 +87,15 @@ TEST_F(WarmStartTest, ANewNodeMovesAsTheSurfaceMovedThere) {
     const Affine own = form(affine, j);
     EXPECT_LT((rest + own.col(3) - moved(nodes[j], rest)).norm(), 1e-3) << "node at point " << nodes[j];
     for (const Eigen::Vector3f& arm : {Eigen::Vector3f(9, 0, 0), Eigen::Vector3f(0, -7, 2)})
-      EXPECT_LT((rest + arm + own.leftCols<3>() * arm + own.col(3) - moved(nodes[j], rest + arm)).norm(), 1e-3)
+      EXPECT_LT((rest + arm + own.leftCols<3>() * arm + own.col(3) - moved(nodes[j], rest + arm)).norm(),
+                1e-3)
           << "beside the node at point " << nodes[j];
   }
 }
 
 TEST_F(WarmStartTest, ARigidMotionSurvivesAnyChangeOfTheGraph) {
-  const Eigen::Isometry3f motion = Eigen::Translation3f(4, -6, 11) *
-                                   Eigen::AngleAxisf(0.3F, Eigen::Vector3f(1, 2, -1).normalized());
+  const Eigen::Isometry3f motion =
+      Eigen::Translation3f(4, -6, 11) * Eigen::AngleAxisf(0.3F, Eigen::Vector3f(1, 2, -1).normalized());
   const auto rigid = [&](int point) {
     const Eigen::Vector3f& node = points_[static_cast<std::size_t>(point)];
     Affine form;
@@ -105,8 +107,7 @@ TEST_F(WarmStartTest, ARigidMotionSurvivesAnyChangeOfTheGraph) {
     Eigen::Map<Affine>(forms.data() + affine_size * j) = rigid(nodes_[j]);
   const std::vector<int> nodes = {1, 60, 128, 290};
   const Array<float> affine = carried(nodes);
-  for (std::size_t j = 0; j < nodes.size(); ++j)
-    EXPECT_LT((form(affine, j) - rigid(nodes[j])).norm(), 1e-3);
+  for (std::size_t j = 0; j < nodes.size(); ++j) EXPECT_LT((form(affine, j) - rigid(nodes[j])).norm(), 1e-3);
 }
 
 }  // namespace

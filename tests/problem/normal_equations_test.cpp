@@ -96,7 +96,8 @@ TEST_F(NormalEquationsTest, TakeNewTargetsBetweenAssemblies) {
   NormalEquations equations(device_, problem);
   const auto before = device_normals(equations);
   auto& data = constraints->data.write_host();
-  for (std::size_t i = 0; i < data.size(); ++i) data[i] *= i % 6 < 3 ? 2 : 1;  // the targets, not their normals
+  for (std::size_t i = 0; i < data.size(); ++i)
+    data[i] *= i % 6 < 3 ? 2 : 1;  // the targets, not their normals
   const auto after = device_normals(equations);
   EXPECT_TRUE(after.matrix.isApprox(before.matrix, 1e-6)) << "the matrix does not know the targets";
   EXPECT_TRUE(after.gradient.isApprox(dense_normals(problem).gradient, 1e-5));
