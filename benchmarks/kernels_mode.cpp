@@ -48,14 +48,14 @@ StageTimes least_times(Device& device, int runs, const std::function<void()>& wo
 }
 
 Peak measure_peak(Device& device) {
-  constexpr int turns = 100000, chunks = 64, length = 1 << 15;
+  constexpr int turns = 20000, chunks = 32, length = 1 << 15;
   constexpr std::size_t stream = sizeof(float) * 16 * chunks * length;
   auto multiply_adds = device.kernel(embedded::benchmarks_peak_cl, "multiply_adds");
   auto add_streams = device.kernel(embedded::benchmarks_peak_cl, "add_streams");
   const auto out = device.allocate(sizeof(float) * 16 * chunks);
   const auto a = device.allocate(stream), b = device.allocate(stream), c = device.allocate(stream);
   for (const auto& buffer : {a, b, c}) device.fill_zero(buffer, stream);
-  const auto times = least_times(device, 7, [&] {
+  const auto times = least_times(device, 40, [&] {
     device.run("peak", multiply_adds, chunks, 1, turns, 0.5F, out);
     device.run("peak", add_streams, chunks, 1, length, a, b, c);
     device.finish();
@@ -176,7 +176,7 @@ void measure(const Subject& subject, const Registry& registry, Device& device, c
        {"linear_solver",
         Parameters::Sections{{"", with_defaults(registry, "linear_solver", subject.linear_solver)}}, true}}));
   SolverSummary summary;
-  const auto times = least_times(device, 7, [&] {
+  const auto times = least_times(device, 15, [&] {
     problem->reset_to_identity();
     const auto bound = solver->bind(*problem, device);
     bound->solve();
