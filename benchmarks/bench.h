@@ -28,5 +28,6 @@ class Timings {
 };
 
 int run_solver_mode(const Options& options);
+int run_kernels_mode(const Options& options);
 
 }  // namespace pliant::bench

@@ -33,9 +33,11 @@ int main(int argument_count, char** arguments) {
     return mode;
   };
   const auto* solver = add_mode("solver", "Device solvers against Ceres on a frozen problem");
+  const auto* kernels = add_mode("kernels", "What each kernel reaches of the machine's peak");
   CLI11_PARSE(app, argument_count, arguments);
   try {
     if (solver->parsed()) return pliant::bench::run_solver_mode(options);
+    if (kernels->parsed()) return pliant::bench::run_kernels_mode(options);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 1;

@@ -148,7 +148,7 @@ void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::si
                      rounded),
          error);
   }
-  if (measuring_) events_.emplace_back(stage, event);
+  if (measuring_) records_.push_back({stage, kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), event});
 }
 
 cl::Buffer Device::allocate(std::size_t bytes) const {
@@ -224,15 +224,19 @@ void Device::finish() const {
   }
 }
 
-StageTimes Device::take_stage_times() {
+StageTimes Device::take_stage_times() { return take_times(&Record::stage); }
+
+StageTimes Device::take_kernel_times() { return take_times(&Record::kernel); }
+
+StageTimes Device::take_times(std::string Record::*name) {
   finish();
   StageTimes times;
-  for (const auto& [stage, event] : events_) {
-    const auto begin = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-    const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-    times[stage] += static_cast<double>(end - begin) * 1e-6;
+  for (const auto& record : records_) {
+    const auto begin = record.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+    const auto end = record.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+    times[record.*name] += static_cast<double>(end - begin) * 1e-6;
   }
-  events_.clear();
+  records_.clear();
   return times;
 }
 

@@ -84,8 +84,9 @@ class Device {
 
   /// While true (default: false) every kernel's time is recorded under its stage's name.
   void measure_stages(bool on) { measuring_ = on; }
-  /// Waits, then gives what was recorded since the last call.
+  /// Waits, then gives what was recorded since the last call: added up by stage, or by kernel.
   StageTimes take_stage_times();
+  StageTimes take_kernel_times();
 
  private:
   template <class T>
@@ -116,7 +117,13 @@ class Device {
   std::unordered_map<std::string, Program> programs_;       // by options and source
   mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: what allocate() gave out
   bool measuring_ = false;
-  std::vector<std::pair<std::string, cl::Event>> events_;
+  struct Record {
+    std::string stage;
+    std::string kernel;
+    cl::Event event;
+  };
+  StageTimes take_times(std::string Record::*name);
+  std::vector<Record> records_;
 };
 
 }  // namespace pliant

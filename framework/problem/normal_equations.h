@@ -37,7 +37,10 @@ class NormalEquations {
   Device& device() const { return *device_; }
 
  private:
+  struct Kind;
   struct TermKernels;
+  void add_term(const Term& term);
+  Kind& kind_of(const Constraints* constraints);
   void assemble_term(TermKernels& term, const cl::Buffer& status);
 
   Device* device_;
@@ -50,6 +53,7 @@ class NormalEquations {
   cl::Buffer gradient_;
   cl::Buffer energy_partials_;
   int energy_partial_count_ = 0;
+  std::vector<std::unique_ptr<Kind>> kinds_;
   std::vector<std::unique_ptr<TermKernels>> terms_;
 };
 

@@ -25,7 +25,7 @@ struct NodeLists {
 };
 NodeLists list_by_node(const Incidences& incidences, int node_count);
 
-/// Which 'blocks' (pairs of nodes) of J^T J are not zero by structure, row by row. The first block of a row
+/// Which blocks (pairs of nodes) of J^T J are not zero by structure, row by row. The first block of a row
 /// is its diagonal.
 struct BlockPattern {
   std::vector<int> starts;   ///< one more than nodes
@@ -37,7 +37,29 @@ struct BlockPattern {
 BlockPattern find_blocks(const std::vector<const Incidences*>& incidences,
                          const std::vector<const NodeLists*>& lists, int node_count);
 
+/// The same for the lower triangle alone, block by block.
+struct LowerBlocks {
+  std::vector<int> rows;  ///< of each block, with row >= column, sorted by row, then by column
+  std::vector<int> columns;
+  std::vector<int> diagonal;  ///< of each node, which block
+  /// Per kind of instances and block: who contributes, as (instance * max_influences + slot of the row's
+  /// node)
+  /// * max_influences + slot of the column's node.
+  struct Contributions {
+    std::vector<int> starts;  ///< one more than blocks
+    std::vector<int> entries;
+  };
+  std::vector<Contributions> contributions;
+};
+LowerBlocks find_lower_blocks(const std::vector<const Incidences*>& incidences,
+                              const std::vector<const NodeLists*>& lists, int node_count);
+
 /// What the edges of a graph look at: `from`, then `to`.
 Incidences edge_incidences(const DeformationGraph& graph);
+
+/// Writes the arms of constraints into `arms`, from instance `first` on, `per_instance` float4 an instance:
+/// for each slot w (p - g, 1), by which the rows of the node's [D | t] move the point; empty slots get zeros.
+void compute_arms(Device& device, const Constraints& constraints, const Array<float>& node_points, int first,
+                  int per_instance, const cl::Buffer& arms);
 
 }  // namespace pliant

@@ -3,6 +3,7 @@
 // product with that inverse, `update` takes L_ik L_jk^T from what is left. status: [0] skip, [1] bad pivot.
 
 #define BLOCK 64
+#define TILE 32
 
 // Places the 12x12 blocks; the diagonal is raised by lambda (status[3]). An unknown that nothing touches has
 // a row of zeros: a 1 on its diagonal keeps it where it is.
@@ -78,9 +79,10 @@ kernel void diagonal(global int* status, int k, int n, global float* A, global f
     }
 }
 
-// Four rows of L_ik per work-item; also kept transposed (BLOCK x n) for unit stride in `update`.
+// Four rows of L_ik per work-item; also kept transposed in tiles of TILE rows (each BLOCK x TILE), so that
+// `update` runs along memory and its operands do not fall on each other in the cache.
 kernel void panel(global const int* status, int k, int n, global float* A,
-                  global const float* inverse_transposed, global float* transposed) {
+                  global const float* inverse_transposed, global float* tiles) {
   const int row = (k + 1) * BLOCK + 4 * get_global_id(0);
   if (status[0] || status[1] || row >= n) return;
   float16 sum[16];
@@ -100,33 +102,38 @@ kernel void panel(global const int* status, int k, int n, global float* A,
   }
   for (int r = 0; r < 4; ++r)
     for (int part = 0; part < 4; ++part) vstore16(sum[4 * r + part], part, A + (row + r) * n + k * BLOCK);
+  global float* tile = tiles + row / TILE * BLOCK * TILE + row % TILE;
   for (int c = 0; c < BLOCK; ++c)
-    for (int r = 0; r < 4; ++r) transposed[c * n + row + r] = A[(row + r) * n + k * BLOCK + c];
+    vstore4((float4)(A[row * n + k * BLOCK + c], A[(row + 1) * n + k * BLOCK + c],
+                     A[(row + 2) * n + k * BLOCK + c], A[(row + 3) * n + k * BLOCK + c]),
+            0, tile + c * TILE);
 }
 
-// An 8 x 32 tile of the remaining lower triangle per work-item: sixteen accumulators stay in registers.
+// 8 rows of a tile of the remaining lower triangle per work-item: sixteen accumulators stay in registers.
 kernel void update(global const int* status, int k, int n, int tile_columns, global float* A,
-                   global const float* transposed) {
+                   global const float* tiles) {
   const int first = (k + 1) * BLOCK;
   const int row = first + 8 * (get_global_id(0) / tile_columns);
-  const int column = first + 32 * (get_global_id(0) % tile_columns);
+  const int column = first + TILE * (get_global_id(0) % tile_columns);
   if (status[0] || status[1] || row >= n || column > row + 7) return;
+  global const float* a = tiles + row / TILE * BLOCK * TILE + row % TILE;
+  global const float* b = tiles + column * BLOCK;
   float16 left[8], right[8];
+#pragma unroll
   for (int r = 0; r < 8; ++r) {
     left[r] = vload16(0, A + (row + r) * n + column);
     right[r] = vload16(1, A + (row + r) * n + column);
   }
   for (int t = 0; t < BLOCK; ++t) {
-    const float16 b0 = vload16(0, transposed + t * n + column);
-    const float16 b1 = vload16(1, transposed + t * n + column);
-    const float8 a = vload8(0, transposed + t * n + row);
-    const float values[8] = {a.s0, a.s1, a.s2, a.s3, a.s4, a.s5, a.s6, a.s7};
+    const float16 b0 = vload16(0, b + TILE * t), b1 = vload16(1, b + TILE * t);
 #pragma unroll
     for (int r = 0; r < 8; ++r) {
-      left[r] -= values[r] * b0;
-      right[r] -= values[r] * b1;
+      const float value = a[TILE * t + r];
+      left[r] -= value * b0;
+      right[r] -= value * b1;
     }
   }
+#pragma unroll
   for (int r = 0; r < 8; ++r) {
     vstore16(left[r], 0, A + (row + r) * n + column);
     vstore16(right[r], 1, A + (row + r) * n + column);

@@ -18,7 +18,7 @@ class DenseCholeskySteps : public StepSolver {
         n_((unknowns_ + block - 1) / block * block),
         blocks_(n_ / block),
         matrix_(device_.allocate(sizeof(float) * size() * size())),
-        transposed_(device_.allocate(sizeof(float) * block * size())),
+        tiles_(device_.allocate(sizeof(float) * block * size())),
         scratch_(device_.allocate(sizeof(float) * block * block)),
         inverses_(device_.allocate(sizeof(float) * block * size())),
         inverses_transposed_(device_.allocate(sizeof(float) * block * size())),
@@ -63,9 +63,9 @@ class DenseCholeskySteps : public StepSolver {
       device_.run("cholesky", diagonal, 1, 1, status, k, n_, matrix_, scratch_, at_block(inverses_, k),
                   inverse_transposed);
       const auto rest = static_cast<std::size_t>(n_ - (k + 1) * block);
-      device_.run("cholesky", panel, rest / 4, 1, status, k, n_, matrix_, inverse_transposed, transposed_);
+      device_.run("cholesky", panel, rest / 4, 1, status, k, n_, matrix_, inverse_transposed, tiles_);
       device_.run("cholesky", update, rest / 8 * (rest / 32), 1, status, k, n_,
-                  static_cast<cl_int>(rest / 32), matrix_, transposed_);
+                  static_cast<cl_int>(rest / 32), matrix_, tiles_);
     }
   }
 
@@ -90,7 +90,7 @@ class DenseCholeskySteps : public StepSolver {
   cl_int n_;
   cl_int blocks_;
   cl::Buffer matrix_;
-  cl::Buffer transposed_;
+  cl::Buffer tiles_;
   cl::Buffer scratch_;
   cl::Buffer inverses_;
   cl::Buffer inverses_transposed_;

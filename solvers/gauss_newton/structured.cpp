@@ -9,7 +9,6 @@
 #include "framework/core/error.h"
 #include "framework/problem/equation_source.h"
 #include "framework/problem/structure.h"
-#include "solvers/gauss_newton/arms.cl.embed.h"
 #include "solvers/gauss_newton/linear_solver.h"
 #include "solvers/gauss_newton/node_terms.cl.embed.h"
 #include "solvers/gauss_newton/rows.cl.embed.h"
@@ -281,14 +280,9 @@ class StructuredCourse : public Course {
       device_.run("weights", kernel, static_cast<std::size_t>(term.count), 64, node_points, term.count,
                   edges_.nodes, term.first, edges_.arms);
     }
-    auto kernel = device_.kernel(embedded::solvers_gauss_newton_arms_cl, "arms_of_constraints");
-    for (const auto& set : sets_) {
-      const auto& influences = set.constraints->influences;
-      device_.run("weights", kernel, set.constraints->size(), 64, set.constraints->points.device(device_),
-                  static_cast<cl_int>(set.constraints->size()), static_cast<cl_int>(influences.per_point),
-                  influences.nodes.device(device_), influences.weights.device(device_), node_points,
-                  set.first, static_cast<cl_int>(constraints_.incidences.per_instance), constraints_.arms);
-    }
+    for (const auto& set : sets_)
+      compute_arms(device_, *set.constraints, problem_.node_points(), set.first,
+                   constraints_.incidences.per_instance, constraints_.arms);
   }
 
   bool is_coupled() const { return coupled_partial_count_ > 0; }
