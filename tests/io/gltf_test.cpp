@@ -379,10 +379,10 @@ TEST_F(Gltf, DataNamedTooOftenIsRefusedBeforeItFillsTheMemory) {
         {"primitives",
          {{{"attributes", {{"POSITION", positions}}}, {"targets", std::vector<json>(targets, target)}}}}};
   };
-  glb.json["meshes"] = {mesh_with(7000)};
+  glb.json["meshes"] = json::array({mesh_with(7000)});
   EXPECT_THAT(error_of(glb.bytes()), HasSubstr("3000 vertices with 7000 morph targets"));
   // Each of two could be held, but not both together.
-  glb.json["meshes"] = {mesh_with(3500), mesh_with(0)};
+  glb.json["meshes"] = json::array({mesh_with(3500), mesh_with(0)});
   glb.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 1}}};
   glb.json["scenes"][0]["nodes"] = {0, 1};
   EXPECT_THAT(error_of(glb.bytes()), HasSubstr("6000 vertices with 3500 morph targets"));

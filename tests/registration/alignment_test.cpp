@@ -7,6 +7,7 @@
 #include <random>
 
 #include "framework/core/error.h"
+#include "framework/registration/align_automatic.h"
 #include "framework/registration/align_features.h"
 #include "framework/registration/alignments.h"
 
@@ -197,6 +198,78 @@ TEST(FeatureAlignment, RefusesUnrelatedImages) {
   FramePair pair = moved_plane();
   pair.target = render_plane(a_motion(), 77);
   EXPECT_THROW(make_features()->align(pair, 1), DataError);
+}
+
+std::unique_ptr<Alignment> make_automatic() {
+  Registry registry;
+  register_alignments(registry);
+  return registry.make<Alignment>(Parameters("automatic", {{"ratio", 0.85},
+                                                           {"iterations", std::int64_t{2000}},
+                                                           {"inlier_distance", 30.0},
+                                                           {"min_inliers", std::int64_t{8}},
+                                                           {"max_deformation", 120.0}}));
+}
+
+TEST(AutomaticAlignment, MovesWhereFeaturesBringTheSourceNearer) {
+  const AlignmentResult result = make_automatic()->align(moved_plane(), 1);
+  EXPECT_EQ(result.motion.matrix(), make_features()->align(moved_plane(), 1).motion.matrix());
+  EXPECT_GT(result.features.size(), 10u);
+}
+
+TEST(AutomaticAlignment, StaysWithoutColorTextureOrAgreement) {
+  FramePair colorless = moved_plane();
+  colorless.target.color = {};
+  FramePair plain = moved_plane();
+  plain.source.color = ColorImage(320, 240, Rgb{90, 90, 90});
+  FramePair unrelated = moved_plane();
+  unrelated.target = render_plane(a_motion(), 77);
+  for (const FramePair* pair : {&colorless, &plain, &unrelated}) {
+    const AlignmentResult result = make_automatic()->align(*pair, 1);
+    EXPECT_TRUE(result.motion.matrix().isIdentity(0));
+    EXPECT_EQ(result.features.size(), 0u);
+  }
+}
+
+TEST(CutResidual, IsTheMeanDistanceAndCountsMissesInFull) {
+  FramePair pair;
+  pair.camera = {100, 100, 16, 16, 32, 32};
+  pair.source.depth = DepthImage(32, 32, 500);
+  pair.target.depth = DepthImage(32, 32, 510);
+  const double obliqueness = std::hypot(1.0, 0.15);  // of the ray furthest out
+  const double residual = cut_residual(pair, Eigen::Isometry3d::Identity());
+  EXPECT_GE(residual, 10);
+  EXPECT_LE(residual, 10 * obliqueness * obliqueness);
+  pair.target.depth = DepthImage(32, 32, 0);
+  EXPECT_EQ(cut_residual(pair, Eigen::Isometry3d::Identity(), 40), 40);
+}
+
+/// A sheet of paper that is rolled: neighbours keep their distance.
+PointMatches rolled_sheet() {
+  PointMatches matches;
+  for (int i = 0; i < 10; ++i) {
+    for (int j = 0; j < 10; ++j) {
+      const double s = 20.0 * i;
+      matches.from.emplace_back(s, 20.0 * j, 800);
+      matches.to.emplace_back(150 * std::sin(s / 150), 20.0 * j, 800 - 150 * (1 - std::cos(s / 150)));
+    }
+  }
+  return matches;
+}
+
+TEST(KeepDeformable, KeepsABendingSheetWhole) {
+  EXPECT_EQ(keep_deformable(rolled_sheet(), Eigen::Isometry3d::Identity(), 200).size(), 100u);
+}
+
+TEST(KeepDeformable, DropsMatchesThatFlyOffTheSurface) {
+  PointMatches matches = rolled_sheet();
+  matches.to[44] += Eigen::Vector3d(0, 60, 0);    // within reach, but away from its neighbours
+  matches.to[77] += Eigen::Vector3d(0, 0, 1000);  // out of reach
+  const PointMatches kept = keep_deformable(matches, Eigen::Isometry3d::Identity(), 200);
+  EXPECT_EQ(kept.size(), 98u);
+  for (const auto& point : kept.from) {
+    EXPECT_NE(point, matches.from[44]);
+    EXPECT_NE(point, matches.from[77]);
+  }
 }
 
 TEST(NoAlignment, LeavesTheSourceWhereItIs) {

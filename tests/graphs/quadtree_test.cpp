@@ -1,0 +1,270 @@
+#include "graphs/quadtree/quadtree.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "framework/core/error.h"
+#include "tests/geometry/holey_surface.h"
+#include "tests/graphs/quadtree_reference.h"
+
+namespace pliant {
+namespace {
+
+using Settings = QuadtreeGraph::Settings;
+
+std::vector<Surface> objects() {
+  return {holey_surface(96, 70, 1), holey_surface(61, 97, 2), holey_surface(64, 64, 3)};
+}
+
+Surface full_rectangle(int width, int height) {
+  Surface surface;
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      surface.pixels.emplace_back(u, v);
+      surface.points.emplace_back(0.0F, 0.0F, 800.0F);
+    }
+  return surface;
+}
+
+void remove_points(Surface& surface, const std::function<bool(const Eigen::Vector2i&)>& is_removed) {
+  Surface kept;
+  for (const Eigen::Vector2i& pixel : surface.pixels)
+    if (!is_removed(pixel)) {
+      kept.pixels.push_back(pixel);
+      kept.points.emplace_back(0.0F, 0.0F, 800.0F);
+    }
+  surface = kept;
+}
+
+Array<float> everywhere(const Surface& surface, float residual) {
+  return Array<float>(std::vector<float>(surface.size(), residual));
+}
+
+bool contains(const GraphCell& cell, const Eigen::Vector2i& pixel) {
+  return pixel.x() >= cell.left && pixel.x() < cell.right && pixel.y() >= cell.top && pixel.y() < cell.bottom;
+}
+
+class QuadtreeTest : public testing::Test {
+ protected:
+  std::unique_ptr<NodeSelection> select(const Settings& settings, const Surface& surface) {
+    return QuadtreeGraph(settings).select_nodes(device_, surface, Camera{});
+  }
+
+  /// Hands `check` the tree of each object as it is built and after each of several adaptations.
+  void over_adaptations(const std::function<void(const Surface&, const NodeSelection&)>& check) {
+    for (const Surface& surface : objects()) {
+      const auto nodes = select({5, 2, 2, 1.5}, surface);
+      check(surface, *nodes);
+      for (unsigned seed = 1; seed <= 5; ++seed) {
+        nodes->adapt(device_, Array<float>(patchy_residuals(surface, seed)));
+        check(surface, *nodes);
+      }
+    }
+  }
+
+  Device device_;
+};
+
+TEST_F(QuadtreeTest, IsThatOfTheReference) {
+  for (const Surface& surface : objects())
+    for (const Settings& settings :
+         {Settings{5, 2, 2, 1.5}, Settings{6, 3, 1.75, 1.25}, Settings{4, 1, 2, 1}}) {
+      const auto nodes = select(settings, surface);
+      QuadtreeReference reference(settings, surface);
+      EXPECT_EQ(nodes->points(), reference.points());
+      EXPECT_EQ(nodes->cells(), reference.cells());
+      for (unsigned seed = 1; seed <= 6; ++seed) {
+        const std::vector<int> before = nodes->points();
+        const std::vector<float> residuals = patchy_residuals(surface, seed);
+        const bool has_changed = nodes->adapt(device_, Array<float>(residuals));
+        reference.adapt(residuals);
+        EXPECT_EQ(nodes->points(), reference.points());
+        EXPECT_EQ(nodes->cells(), reference.cells());
+        EXPECT_EQ(has_changed, nodes->points() != before);
+      }
+    }
+}
+
+// A test of the tests: residuals under which nothing refines or collapses would prove nothing.
+TEST_F(QuadtreeTest, IsComparedWhereItBothRefinesAndCollapses) {
+  const Surface surface = holey_surface(96, 70, 1);
+  QuadtreeReference tree({5, 2, 2, 1.5}, surface);
+  bool refined = false;
+  bool collapsed = false;
+  bool is_virtual = false;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const auto before = tree.cells();
+    tree.adapt(patchy_residuals(surface, seed));
+    for (const GraphCell& now : tree.cells()) {
+      is_virtual = is_virtual || now.is_virtual;
+      for (const GraphCell& then : before)
+        if (contains(then, {now.left, now.top}) || contains(now, {then.left, then.top})) {
+          refined = refined || now.level > then.level;
+          collapsed = collapsed || now.level < then.level;
+        }
+    }
+  }
+  EXPECT_TRUE(refined);
+  EXPECT_TRUE(collapsed);
+  EXPECT_TRUE(is_virtual);
+}
+
+TEST_F(QuadtreeTest, LeavesTileTheObject) {
+  over_adaptations([](const Surface& surface, const NodeSelection& nodes) {
+    std::map<std::pair<int, int>, int> covered;
+    for (const GraphCell& cell : nodes.cells())
+      for (int v = cell.top; v < cell.bottom; ++v)
+        for (int u = cell.left; u < cell.right; ++u) ++covered[{u, v}];
+    for (const auto& [pixel, times] : covered) EXPECT_EQ(times, 1) << pixel.first << ", " << pixel.second;
+    for (const Eigen::Vector2i& pixel : surface.pixels)
+      EXPECT_EQ(covered.count({pixel.x(), pixel.y()}), 1U) << pixel.transpose();
+  });
+}
+
+TEST_F(QuadtreeTest, NodesAreThePointsAtTheCentresOfCells) {
+  over_adaptations([](const Surface& surface, const NodeSelection& nodes) {
+    std::set<int> expected;
+    for (const GraphCell& cell : nodes.cells()) {
+      const Eigen::Vector2i centre((cell.left + cell.right) / 2, (cell.top + cell.bottom) / 2);
+      const auto found = std::find(surface.pixels.begin(), surface.pixels.end(), centre);
+      EXPECT_EQ(cell.is_virtual, found == surface.pixels.end());
+      if (!cell.is_virtual) expected.insert(static_cast<int>(found - surface.pixels.begin()));
+    }
+    EXPECT_THAT(nodes.points(), testing::ElementsAreArray(expected));  // ascending, without repetition
+  });
+}
+
+TEST_F(QuadtreeTest, NoCellIsInTheGraphTogetherWithOneInsideIt) {
+  over_adaptations([](const Surface&, const NodeSelection& nodes) {
+    const auto cells = nodes.cells();
+    for (const GraphCell& cell : cells)
+      for (const GraphCell& other : cells)
+        EXPECT_FALSE(other.level > cell.level && contains(cell, {other.left, other.top}));
+  });
+}
+
+TEST_F(QuadtreeTest, HasAtMostFourToTheLNodesOnLevelL) {
+  const Surface surface = full_rectangle(64, 64);
+  const auto nodes = select({5, 3, 2, 1}, surface);
+  EXPECT_EQ(nodes->points().size(), 64U);  // 4^3: full where nothing is missing
+  EXPECT_TRUE(nodes->adapt(device_, everywhere(surface, 3)));
+  EXPECT_EQ(nodes->points().size(), 1024U);
+  over_adaptations([](const Surface&, const NodeSelection& selection) {
+    std::map<int, int> counts;
+    for (const GraphCell& cell : selection.cells()) ++counts[cell.level];
+    for (const auto& [level, count] : counts) EXPECT_LE(count, 1 << (2 * level));
+  });
+}
+
+TEST_F(QuadtreeTest, SettlesAtTheSameResidual) {
+  for (const Surface& surface : objects()) {
+    const auto nodes = select({6, 2, 2, 1.5}, surface);
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      const Array<float> residuals(patchy_residuals(surface, seed));
+      int calls = 0;
+      while (nodes->adapt(device_, residuals) && calls < 6) ++calls;
+      EXPECT_LT(calls, 6);
+      const auto settled = nodes->cells();
+      EXPECT_FALSE(nodes->adapt(device_, residuals));
+      EXPECT_EQ(nodes->cells(), settled);
+    }
+  }
+}
+
+TEST_F(QuadtreeTest, ChangesOnlyBeyondTheThresholds) {
+  const Surface surface = holey_surface(96, 70, 4);
+  const auto nodes = select({5, 2, 2, 1}, surface);
+  EXPECT_TRUE(nodes->adapt(device_, everywhere(surface, 2.5)));
+  EXPECT_EQ(nodes->cells().back().level, 5);
+  const auto refined = nodes->points();
+  for (const float residual : {2.0F, 1.5F, 1.0F, -1.0F})
+    EXPECT_FALSE(nodes->adapt(device_, everywhere(surface, residual)));
+  EXPECT_TRUE(nodes->adapt(device_, everywhere(surface, 0.5F)));
+  EXPECT_LT(nodes->points().size(), refined.size() / 4);
+}
+
+TEST_F(QuadtreeTest, CollapsesToWhereItBeganWithoutHoles) {
+  const Surface surface = full_rectangle(64, 64);
+  const auto nodes = select({5, 2, 2, 1}, surface);
+  const auto at_first = nodes->cells();
+  EXPECT_TRUE(nodes->adapt(device_, everywhere(surface, 5)));
+  EXPECT_NE(nodes->cells(), at_first);
+  EXPECT_TRUE(nodes->adapt(device_, everywhere(surface, 0)));
+  EXPECT_EQ(nodes->cells(), at_first);
+}
+
+TEST_F(QuadtreeTest, RefinesOnlyWhereItDoesNotFit) {
+  const Surface surface = full_rectangle(64, 64);
+  const auto nodes = select({4, 2, 2, 1}, surface);
+  std::vector<float> residuals;
+  for (const Eigen::Vector2i& pixel : surface.pixels) residuals.push_back(pixel.x() < 16 ? 4.0F : 1.5F);
+  nodes->adapt(device_, Array<float>(residuals));
+  for (const GraphCell& cell : nodes->cells()) EXPECT_EQ(cell.level, cell.left < 16 ? 4 : 2);
+}
+
+TEST_F(QuadtreeTest, GrowsThroughVirtualNodesIntoRegionsWhoseCentreIsAHole) {
+  Surface surface = full_rectangle(64, 64);
+  // A hole over the centre of the cell (0, 0) of level 1, and of all of its children's.
+  remove_points(surface, [](const Eigen::Vector2i& pixel) {
+    return pixel.x() >= 6 && pixel.x() <= 26 && pixel.y() >= 6 && pixel.y() <= 26;
+  });
+  const auto nodes = select({4, 1, 2, 1}, surface);
+  EXPECT_EQ(nodes->points().size(), 3U);
+  EXPECT_TRUE(nodes->cells().front().is_virtual);
+  nodes->adapt(device_, everywhere(surface, 3));
+  const auto grown = std::count_if(nodes->points().begin(), nodes->points().end(), [&](int node) {
+    const Eigen::Vector2i& pixel = surface.pixels[static_cast<std::size_t>(node)];
+    return pixel.x() < 32 && pixel.y() < 32;
+  });
+  EXPECT_EQ(grown, 64 - 36);  // all of the deepest level but those in the hole
+}
+
+TEST_F(QuadtreeTest, HasNoMoreLevelsThanPixelsAllow) {
+  const Surface surface = full_rectangle(5, 4);
+  const auto nodes = select({10, 10, 2, 1}, surface);
+  for (const GraphCell& cell : nodes->cells()) EXPECT_LE(cell.level, 2);
+  EXPECT_FALSE(nodes->points().empty());
+}
+
+TEST_F(QuadtreeTest, OfOnePointIsThatPoint) {
+  const Surface surface = full_rectangle(1, 1);
+  const auto nodes = select({6, 3, 2, 1}, surface);
+  EXPECT_THAT(nodes->points(), testing::ElementsAre(0));
+  EXPECT_FALSE(nodes->adapt(device_, everywhere(surface, 9)));
+}
+
+TEST_F(QuadtreeTest, GivesTheSameBitsTwice) {
+  const Surface surface = holey_surface(96, 70, 5);
+  const auto once = select({6, 2, 2, 1.5}, surface);
+  const auto again = select({6, 2, 2, 1.5}, surface);
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Array<float> residuals(patchy_residuals(surface, seed));
+    EXPECT_EQ(once->adapt(device_, residuals), again->adapt(device_, residuals));
+    EXPECT_EQ(once->points(), again->points());
+    EXPECT_EQ(once->cells(), again->cells());
+  }
+}
+
+TEST(QuadtreeSettings, ThresholdsInTheWrongOrderAreAnError) {
+  for (const double collapse : {2.0, 3.0})
+    EXPECT_THAT(
+        [&] {
+          QuadtreeGraph(Settings{6, 3, 2, collapse});
+        },
+        testing::ThrowsMessage<ConfigError>(testing::HasSubstr("collapse_threshold")));
+}
+
+TEST(QuadtreeSettings, MoreInitialLevelsThanLevelsAreAnError) {
+  EXPECT_THAT(
+      [] {
+        QuadtreeGraph(Settings{3, 4, 2, 1});
+      },
+      testing::ThrowsMessage<ConfigError>(testing::HasSubstr("initial_levels is 4")));
+}
+
+}  // namespace
+}  // namespace pliant

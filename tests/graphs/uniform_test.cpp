@@ -1,0 +1,72 @@
+#include "graphs/uniform/uniform.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdint>
+
+#include "framework/core/error.h"
+#include "framework/deformation/graph_builder.h"
+#include "tests/geometry/holey_surface.h"
+
+namespace pliant {
+namespace {
+
+std::unique_ptr<GraphBuilder> make_uniform(std::vector<Parameters::Value> values) {
+  Registry registry;
+  register_uniform_graph(registry);
+  return registry.make<GraphBuilder>(Parameters("uniform", std::move(values)));
+}
+
+class UniformGraphTest : public testing::Test {
+ protected:
+  std::unique_ptr<NodeSelection> select(std::vector<Parameters::Value> values) {
+    return make_uniform(std::move(values))->select_nodes(device_, surface_, Camera{});
+  }
+
+  Device device_;
+  const Surface surface_ = holey_surface(200, 160, 1);
+};
+
+TEST_F(UniformGraphTest, HasTheCentreOfEachCellWhereThereIsAPoint) {
+  const auto nodes = select({{"spacing", std::int64_t{9}}});
+  std::vector<int> expected;
+  for (std::size_t i = 0; i < surface_.size(); ++i)
+    if (surface_.pixels[i].x() % 9 == 4 && surface_.pixels[i].y() % 9 == 4)
+      expected.push_back(static_cast<int>(i));
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(nodes->points(), expected);
+}
+
+TEST_F(UniformGraphTest, IsTwelvePixelsWideIfNothingIsSaid) {
+  EXPECT_EQ(select({})->points(), select({{"spacing", std::int64_t{12}}})->points());
+}
+
+TEST_F(UniformGraphTest, HasAboutAsManyNodesAsAreWishedFor) {
+  for (const int wished : {16, 64, 256, 1024}) {
+    const auto nodes = select({{"nodes", std::int64_t{wished}}});
+    EXPECT_NEAR(static_cast<double>(nodes->points().size()), wished, 0.2 * wished);
+  }
+}
+
+TEST_F(UniformGraphTest, HasNoMoreNodesThanPoints) {
+  EXPECT_EQ(select({{"nodes", std::int64_t{1000000}}})->points().size(), surface_.size());
+}
+
+TEST_F(UniformGraphTest, NeverAdaptsAndHasNoCells) {
+  const auto nodes = select({});
+  const auto at_first = nodes->points();
+  EXPECT_FALSE(nodes->adapt(device_, Array<float>(patchy_residuals(surface_, 1))));
+  EXPECT_EQ(nodes->points(), at_first);
+  EXPECT_TRUE(nodes->cells().empty());
+}
+
+TEST(UniformGraph, SpacingAndNumberTogetherAreAnError) {
+  EXPECT_THAT(
+      [] {
+        make_uniform({{"spacing", std::int64_t{9}}, {"nodes", std::int64_t{64}}});
+      },
+      testing::ThrowsMessage<ConfigError>(testing::HasSubstr("both `spacing` and `nodes`")));
+}
+
+}  // namespace
+}  // namespace pliant

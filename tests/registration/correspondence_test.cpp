@@ -1,0 +1,147 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "framework/registration/projective.h"
+#include "framework/registration/residual.h"
+
+namespace pliant {
+namespace {
+
+constexpr Camera camera{50, 50, 20, 15, 41, 31};
+
+/// A wavy wall with holes, some pixels without a normal.
+Target make_target(std::mt19937& random) {
+  std::uniform_real_distribution<float> draw(0, 1);
+  SurfaceMap map{Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero()),
+                 Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero())};
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      if (draw(random) < 0.15F) continue;
+      map.points(u, v) =
+          camera.unproject(u, v, 400 + 20 * std::sin(0.3 * u) + 8 * draw(random)).cast<float>();
+      if (draw(random) < 0.1F) continue;
+      map.normals(u, v) = Eigen::Vector3f(draw(random) - 0.5F, draw(random) - 0.5F, -0.6F).normalized();
+    }
+  }
+  return {camera, map};
+}
+
+/// Points before, beside and behind the camera; some without a normal.
+PointSet make_moved(std::mt19937& random, std::size_t count) {
+  std::uniform_real_distribution<float> draw(0, 1);
+  std::vector<float> points, normals;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float depth = draw(random) < 0.05F ? -100.0F : 380 + 60 * draw(random);
+    for (const float value : {(draw(random) - 0.5F) * 420, (draw(random) - 0.5F) * 320, depth})
+      points.push_back(value);
+    const Eigen::Vector3f normal =
+        draw(random) < 0.1F
+            ? Eigen::Vector3f(0, 0, 0)
+            : Eigen::Vector3f(Eigen::Vector3f(draw(random) - 0.5F, draw(random) - 0.5F, -0.5F).normalized());
+    normals.insert(normals.end(), normal.data(), normal.data() + 3);
+  }
+  return {Array<float>(std::move(points)), Array<float>(std::move(normals))};
+}
+
+struct Limits {
+  double max_distance;
+  double max_angle;
+  int search_radius;
+};
+
+class Projective : public ::testing::TestWithParam<Limits> {};
+
+TEST_P(Projective, TheDeviceAgreesWithTheReference) {
+  Device device;
+  std::mt19937 random(11);
+  const Target target = make_target(random);
+  const PointSet moved = make_moved(random, 900);
+  std::vector<int> selected;
+  for (int i = 0; i < 900; i += 2) selected.push_back(i);
+  std::vector<float> rest;
+  for (const int i : selected)
+    for (int axis = 0; axis < 3; ++axis)
+      rest.push_back(moved.points.host()[static_cast<std::size_t>(3 * i + axis)] + 3);
+  const auto empty = [&] {
+    Constraints constraints;
+    constraints.points = Array<float>(rest);
+    constraints.data = Array<float>(std::vector<float>(2 * rest.size(), 7.0F));
+    constraints.confidence = Array<float>(std::vector<float>(selected.size(), 7.0F));
+    return constraints;
+  };
+  Constraints constraints = empty();
+  Constraints expected = empty();
+  const Array<int> chosen(selected);
+  const ProjectiveCorrespondence projective(GetParam().max_distance, GetParam().max_angle,
+                                            GetParam().search_radius);
+  projective.match(device, moved, chosen, target, constraints);
+  projective.match_reference(moved, chosen, target, expected);
+  int matched = 0;
+  for (std::size_t i = 0; i < selected.size(); ++i) {
+    ASSERT_EQ(constraints.confidence.host()[i], expected.confidence.host()[i]) << "constraint " << i;
+    matched += constraints.confidence.host()[i] > 0 ? 1 : 0;
+    for (std::size_t entry = 6 * i; entry < 6 * i + 6; ++entry)
+      ASSERT_NEAR(constraints.data.host()[entry], expected.data.host()[entry], 1e-4) << "constraint " << i;
+  }
+  EXPECT_GT(matched, 20);
+  EXPECT_LT(matched, 440);
+}
+
+INSTANTIATE_TEST_SUITE_P(Limits, Projective,
+                         ::testing::Values(Limits{15, 3.2, 0}, Limits{1000, 0.7, 0}, Limits{30, 0.9, 0},
+                                           Limits{30, 0.9, 3}, Limits{60, 3.2, 12}));
+
+TEST(ProjectiveMatch, LooksAroundOnlyWhereTheProjectedPixelIsRejected) {
+  Device device;
+  SurfaceMap map{Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero()),
+                 Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero())};
+  map.points(24, 15) = camera.unproject(24, 15, 400).cast<float>();
+  const Target target(camera, map);
+  const Eigen::Vector3f point = camera.unproject(20, 15, 400).cast<float>();  // four pixels, 32 mm away
+  const PointSet moved{Array<float>(std::vector<float>(point.data(), point.data() + 3)),
+                       Array<float>(std::vector<float>{0, 0, 0})};
+  Constraints constraints;
+  constraints.points = Array<float>(moved.points.host());
+  constraints.data = Array<float>(std::vector<float>(6));
+  constraints.confidence = Array<float>(std::vector<float>(1));
+  const Array<int> selected(std::vector<int>{0});
+  ProjectiveCorrespondence(50, 1, 3).match(device, moved, selected, target, constraints);
+  EXPECT_EQ(constraints.confidence.host()[0], 0) << "beyond the radius";
+  ProjectiveCorrespondence(30, 1, 4).match(device, moved, selected, target, constraints);
+  EXPECT_EQ(constraints.confidence.host()[0], 0) << "beyond the distance";
+  ProjectiveCorrespondence(50, 1, 4).match(device, moved, selected, target, constraints);
+  EXPECT_EQ(constraints.confidence.host()[0], 1);
+  EXPECT_NEAR(constraints.data.host()[0], 32, 1e-3);
+}
+
+TEST(ResidualMeter, AgreesWithItsReference) {
+  Device device;
+  std::mt19937 random(5);
+  const Target target = make_target(random);
+  const PointSet moved = make_moved(random, 1111);
+  ResidualMeter meter(device, target, 1111);
+  std::vector<float> per_point;
+  const Residual expected = measure_residual_reference(target, moved.points, per_point);
+  const Residual measured = meter.measure(moved.points);
+  EXPECT_GT(expected.landed, 300);
+  EXPECT_EQ(measured.landed, expected.landed);
+  EXPECT_NEAR(measured.mean, expected.mean, 1e-4 * expected.mean);
+  for (std::size_t i = 0; i < per_point.size(); ++i)
+    ASSERT_NEAR(meter.per_point().host()[i], per_point[i], 1e-3) << "point " << i;
+}
+
+TEST(ResidualMeter, IsZeroWhereNothingLands) {
+  Device device;
+  std::mt19937 random(5);
+  const Target target = make_target(random);
+  ResidualMeter meter(device, target, 1);
+  const Residual residual = meter.measure(Array<float>(std::vector<float>{0, 0, -10}));
+  EXPECT_EQ(residual.landed, 0);
+  EXPECT_EQ(residual.mean, 0);
+  EXPECT_EQ(meter.per_point().host()[0], -1);
+}
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,31 @@
+#include "samplers/uniform/uniform.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdint>
+
+#include "framework/registration/sampler.h"
+#include "tests/geometry/holey_surface.h"
+
+namespace pliant {
+namespace {
+
+TEST(UniformSampler, TakesTheCentreOfEachMaskAndKeepsIt) {
+  Registry registry;
+  register_uniform_sampler(registry);
+  const auto sampler = registry.make<ConstraintSampler>(Parameters("uniform", {{"step", std::int64_t{5}}}));
+  const Surface surface = holey_surface(96, 70, 1);
+  Device device;
+  const auto samples = sampler->select(device, surface, Camera{});
+  std::vector<int> expected;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    if (surface.pixels[i].x() % 5 == 2 && surface.pixels[i].y() % 5 == 2)
+      expected.push_back(static_cast<int>(i));
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(samples->points(), expected);
+  EXPECT_FALSE(samples->adapt(device, Array<float>(patchy_residuals(surface, 1))));
+  EXPECT_EQ(samples->points(), expected);
+}
+
+}  // namespace
+}  // namespace pliant
