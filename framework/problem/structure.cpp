@@ -117,7 +117,8 @@ LowerBlocks find_lower_blocks(const std::vector<const Incidences*>& incidences,
 
     // A counting sort per kind: how many for each block, where each block's begin, then fill.
     for (std::size_t kind = 0; kind < lists.size(); ++kind) {
-      auto& [starts, entries] = blocks.contributions[kind];
+      auto& starts = blocks.contributions[kind].starts;
+      auto& entries = blocks.contributions[kind].entries;
       next.assign(static_cast<std::size_t>(end - first), 0);
       for_each_in_row(row, *incidences[kind], *lists[kind], [&](int, int, std::size_t column) {
         ++next[static_cast<std::size_t>(block_of[column] - first)];

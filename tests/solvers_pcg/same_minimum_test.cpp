@@ -63,9 +63,9 @@ TEST_F(EveryLinearSolver, FindsTheMinimumOfBentSheets) {
 
 // Few constraints far apart: the worst conditioned of what people do with embedded deformation.
 TEST_F(EveryLinearSolver, FindsTheMinimumOfSurfacesBentByHandles) {
-  for (const auto& [nodes, bend] : {std::pair(49, 60.0), std::pair(120, 10.0)})
+  for (const auto& sheet :
+       {Sheet{.nodes = 49, .bend = 60, .seed = 6}, Sheet{.nodes = 120, .bend = 10, .seed = 6}})
     expect_same_minimum([&] {
-      const Sheet sheet{.nodes = nodes, .bend = bend, .seed = 6};
       auto graph = make_sheet_graph(sheet);
       auto terms = make_terms(energies_, make_handles(sheet, graph));
       return Problem(std::move(graph), std::move(terms));
