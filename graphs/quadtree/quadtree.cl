@@ -56,7 +56,7 @@ kernel void find_centres(int level, int4 root, int2 size, global const int* poin
   const int cell = get_global_id(0);
   if (cell >= cell_count(level)) return;
   const int4 box = cell_box(level, cell, root);
-  const int2 pixel = (box.xy + box.zw) / 2;
+  const int2 pixel = box.xy + (box.zw - box.xy) / 2;
   const int at = first_cell(level) + cell;
   int found = EMPTY;
   if (totals[at].y > 0) {

@@ -89,6 +89,16 @@ TEST_F(QuadtreeTest, IsThatOfTheReference) {
     }
 }
 
+TEST_F(QuadtreeTest, HasItsCentresRightWhereCellsReachBeyondTheObject) {
+  for (const auto& [width, height] : {std::pair(21, 50), {37, 50}, {61, 22}, {50, 33}}) {
+    Surface surface = full_rectangle(width, height);
+    for (Eigen::Vector2i& pixel : surface.pixels) pixel += Eigen::Vector2i(100, 100);
+    const Settings settings{4, 4, 2, 1};
+    EXPECT_EQ(select(settings, surface)->cells(), QuadtreeReference(settings, surface).cells())
+        << width << " x " << height;
+  }
+}
+
 // A test of the tests: residuals under which nothing refines or collapses would prove nothing.
 TEST_F(QuadtreeTest, IsComparedWhereItBothRefinesAndCollapses) {
   const Surface surface = holey_surface(96, 70, 1);
