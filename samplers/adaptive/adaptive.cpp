@@ -1,6 +1,7 @@
 #include "samplers/adaptive/adaptive.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -14,27 +15,18 @@ namespace {
 
 constexpr const char* stage = "acs";
 
-/// Squared length of the shortest vector between points of the lattice {(i, slope i mod period)} on the
-/// torus.
-int closest_in_lattice(int slope, int period) {
-  int closest = 2 * period * period;
-  for (int i = 1; i < period; ++i) {
-    const int across = std::min(i, period - i);
-    const int down = std::min(slope * i % period, period - slope * i % period);
-    closest = std::min(closest, across * across + down * down);
-  }
-  return closest;
-}
-
-/// The lattice of period n + 1 whose points lie furthest apart: without (0, 0) it has one point in each of
-/// the n columns and rows.
-int best_slope(int step) {
-  const int period = step + 1;
-  int best = 1;
-  for (int slope = 2; slope < period; ++slope)
-    if (std::gcd(slope, period) == 1 && closest_in_lattice(slope, period) > closest_in_lattice(best, period))
-      best = slope;
-  return best;
+/// A row for each column of a mask, each once: the ranks of the multiples of the golden ratio, whose
+/// fractions keep far apart.
+std::vector<int> spread_rows(int step) {
+  const double ratio = (std::sqrt(5.0) - 1) / 2;
+  const auto fraction = [&](int column) { return std::fmod((column + 1) * ratio, 1.0); };
+  std::vector<int> columns(static_cast<std::size_t>(step));
+  std::iota(columns.begin(), columns.end(), 0);
+  std::sort(columns.begin(), columns.end(), [&](int a, int b) { return fraction(a) < fraction(b); });
+  std::vector<int> rows(columns.size());
+  for (std::size_t rank = 0; rank < columns.size(); ++rank)
+    rows[static_cast<std::size_t>(columns[rank])] = static_cast<int>(rank);
+  return rows;
 }
 
 class AdaptiveSelection : public PointSelection {
@@ -47,8 +39,8 @@ class AdaptiveSelection : public PointSelection {
   bool adapt(Device& device, const Array<float>& residuals) override {
     auto choose = device.kernel(embedded::samplers_adaptive_adaptive_cl, "choose");
     const auto mask_count = static_cast<std::size_t>(masks_.s[0]) * static_cast<std::size_t>(masks_.s[1]);
-    device.run(stage, choose, mask_count, 64, masks_, step_, slope_, threshold_, corner_, size_,
-               map_.device(device), residuals.device(device), flags_.write_device(device));
+    device.run(stage, choose, mask_count, 64, masks_, step_, spread_rows_.device(device), threshold_, corner_,
+               size_, map_.device(device), residuals.device(device), flags_.write_device(device));
     const std::vector<int> before = std::exchange(points_, compact(device, stage, flags_).host());
     return points_ != before;
   }
@@ -56,7 +48,7 @@ class AdaptiveSelection : public PointSelection {
  private:
   AdaptiveSelection(int step, float threshold, const Surface& source, const PixelIndex& index)
       : step_(step),
-        slope_(best_slope(step)),
+        spread_rows_(spread_rows(step)),
         threshold_(threshold),
         corner_{{index.left, index.top}},
         size_{{index.points.width(), index.points.height()}},
@@ -68,7 +60,7 @@ class AdaptiveSelection : public PointSelection {
   int masks_over(int first, int count) const { return (first + count - 1) / step_ - first / step_ + 1; }
 
   cl_int step_;
-  cl_int slope_;  ///< of the lattice of points spread evenly
+  Array<int> spread_rows_;  ///< per column of a mask: the row of its one point, of n spread evenly
   cl_float threshold_;
   cl_int2 corner_;    ///< pixel of the map's corner
   cl_int2 size_;      ///< of the map

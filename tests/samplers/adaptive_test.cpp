@@ -133,7 +133,7 @@ TEST_F(AdaptiveSamplerTest, SpreadsPointsOverEveryColumnAndRow) {
 
 TEST_F(AdaptiveSamplerTest, KeepsSpreadPointsApart) {
   // A diagonal would have neighbours at a squared distance of 2.
-  for (const int step : {4, 8, 16}) {
+  for (const int step : {4, 5, 7, 8, 11, 16}) {
     const auto places = spread_places(device_, step);
     for (const auto& [u, v] : places)
       for (const auto& [x, y] : places)
