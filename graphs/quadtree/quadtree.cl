@@ -95,7 +95,6 @@ kernel void collapse(int level, float threshold, global const float2* totals, gl
   const int child = first_cell(level + 1) + 4 * cell;
   const float2 total = totals[at];
   if (state[at] != PARENT || !(total.x < threshold * total.y)) return;
-  if (centre[at] < 0 && has_node_below(child, centre)) return;
   for (int i = child; i < child + 4; ++i)
     if (state[i] == PARENT) return;
   state[at] = LEAF;

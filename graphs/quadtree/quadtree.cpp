@@ -39,7 +39,9 @@ class QuadtreeNodes : public NodeSelection {
 
   bool adapt(Device& device, const Array<float>& residuals) override {
     sum(device, residuals);
-    for (int level = 1; level < levels_; ++level) change(device, "refine", level, settings_.refine_threshold);
+    // Deepest first, so that no child is judged by a residual that was measured without it.
+    for (int level = levels_ - 1; level >= 1; --level)
+      change(device, "refine", level, settings_.refine_threshold);
     for (int level = levels_ - 1; level >= initial_levels_; --level)
       change(device, "collapse", level, settings_.collapse_threshold);
     return collect(device);

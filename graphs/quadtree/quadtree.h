@@ -10,8 +10,8 @@ namespace pliant {
 /// The root is the square around the bounding box of the projection; level l divides it into 4^l cells. A
 /// leaf has its node at the point seen at the centre of its cell. A leaf with points, but none there, is
 /// virtual: it has no node, and the tree may grow in it. (The thesis has virtual nodes on the first two
-/// levels only; deeper down such a cell would be lost with all its points.) A cell is never divided, nor its
-/// children taken back, where that would take away nodes and give none.
+/// levels only; deeper down such a cell would be lost with all its points.) A cell is not
+/// divided where that would take away its node and give none.
 class QuadtreeGraph : public GraphBuilder {
  public:
   struct Settings {
@@ -24,8 +24,9 @@ class QuadtreeGraph : public GraphBuilder {
   /// Throws ConfigError for settings that contradict each other.
   explicit QuadtreeGraph(const Settings& settings);
 
-  /// The tree of `initial_levels` [Alg. 1]; adapting it refines top-down [Alg. 2], then collapses bottom-up
-  /// [Alg. 3].
+  /// The tree of `initial_levels` [Alg. 1]. Adapting it refines [Alg. 2], each leaf once, then collapses
+  /// bottom-up [Alg. 3]. Were the children judged by the same residual at once, a poor first fit would grow
+  /// the whole tree.
   std::unique_ptr<NodeSelection> select_nodes(Device& device, const Surface& source,
                                               const Camera& camera) const override;
 

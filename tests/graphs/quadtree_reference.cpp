@@ -138,9 +138,10 @@ void QuadtreeReference::grow(Cell& cell, int levels) const {
 }
 
 void QuadtreeReference::refine(Cell& cell, const std::vector<float>& residuals) const {
-  if (cell.is_leaf() && mean_residual(cell, residuals) > settings_.refine_threshold)
+  if (!cell.is_leaf())
+    for (auto& child : cell.children) refine(*child, residuals);
+  else if (mean_residual(cell, residuals) > settings_.refine_threshold)
     grow(cell, std::min(cell.level + 1, settings_.levels));
-  for (auto& child : cell.children) refine(*child, residuals);
 }
 
 void QuadtreeReference::collapse(Cell& cell, const std::vector<float>& residuals) const {
@@ -148,7 +149,6 @@ void QuadtreeReference::collapse(Cell& cell, const std::vector<float>& residuals
   if (cell.is_leaf() || cell.level < settings_.initial_levels) return;
   for (const auto& child : cell.children)
     if (!child->is_leaf()) return;
-  if (cell.node < 0 && has_node(cell.children)) return;
   if (mean_residual(cell, residuals) < settings_.collapse_threshold) cell.children.clear();
 }
 
