@@ -15,7 +15,7 @@ namespace pliant {
 class QuadtreeGraph : public GraphBuilder {
  public:
   struct Settings {
-    int levels = 6;                 ///< deepest level; fewer where a cell would be smaller than a pixel
+    int levels = 5;                 ///< deepest level; fewer where a cell would be smaller than a pixel
     int initial_levels = 3;         ///< of the tree to begin with; collapsing never goes above
     double refine_threshold = 2;    ///< mm of mean residual in a cell
     double collapse_threshold = 1;  ///< mm, below refine_threshold
