@@ -133,15 +133,15 @@ class Registration {
 
   void run(const ProgressSink& progress) {
     bind_solver();
-    double residual = measure();
+    residuals_ = {measure()};
     while (termination_.empty()) {
       match();
       solver_->solve();
       update_source();
-      const double previous = std::exchange(residual, measure());
+      residuals_.push_back(measure());
       ++iterations_;
-      decide(previous, residual);
-      report(residual, progress);
+      decide();
+      report(progress);
     }
     collect_summaries();
   }
@@ -180,38 +180,61 @@ class Registration {
   }
 
   /// Ends the loop, or adapts graph and constraints to the residual and lets it go on.
-  void decide(double previous, double residual) {
+  void decide() {
     const StoppingRule& rule = method_.stopping;
-    if (residual < rule.residual)
+    if (residuals_.back() < rule.residual)
       termination_ = "residual";
     else if (iterations_ >= rule.max_iterations)
       termination_ = "max_iterations";
-    else if (!adapt() && std::abs(previous - residual) < rule.min_progress * previous)
-      termination_ = "no_progress";
+    else
+      adapt();
   }
 
-  /// Refines and collapses [Alg. 2, 3], samples anew [thesis 4.5]. The deformation so far is kept.
-  bool adapt() {
-    const bool has_new_nodes =
-        timed(times_, "ans", [&] { return nodes_->adapt(device_, meter_.per_point()); });
-    const bool has_new_samples =
-        timed(times_, "acs", [&] { return samples_->adapt(device_, meter_.per_point()); });
-    if (!has_new_nodes && !has_new_samples) return false;
+  /// Whether the residual stays, or has come down to where it was before the last adaptation: constraints
+  /// that are taken away where the surface fits, and given back once it no longer does, may swing for ever.
+  bool is_stuck() const {
+    const auto last = residuals_.rbegin();
+    const auto is_near = [&](double earlier) {
+      return std::abs(earlier - *last) < method_.stopping.min_progress * earlier;
+    };
+    return is_near(last[1]) || (residuals_.size() > 2 && *last < last[1] && is_near(last[2]));
+  }
+
+  /// Only a new graph promises more where nothing was gained: adaptive constraints seldom stay the same.
+  void adapt() {
+    const bool has_new_nodes = adapt_nodes();
+    if (!has_new_nodes && is_stuck())
+      termination_ = "no_progress";
+    else if (const bool has_new_samples = adapt_samples(); has_new_nodes || has_new_samples)
+      rebuild();
+  }
+
+  /// Refines and collapses [Alg. 2, 3]; whether there are other nodes.
+  bool adapt_nodes() {
+    return timed(times_, "ans", [&] { return nodes_->adapt(device_, meter_.per_point()); });
+  }
+
+  /// Samples anew [thesis 4.5]; whether other points are constrained.
+  bool adapt_samples() {
+    return timed(times_, "acs", [&] { return samples_->adapt(device_, meter_.per_point()); });
+  }
+
+  /// Makes the model of the graph and constraints anew; the deformation so far is kept.
+  void rebuild() {
     collect_summaries();
     Model next = make_model(scene_, method_, device_, *nodes_, *samples_, times_);
     next.problem->unknowns() = carry_over({model_.nodes, model_.influences, model_.problem->unknowns()},
                                           next.nodes, scene_.aligned.points);
     model_ = std::move(next);
     bind_solver();
-    return true;
   }
 
-  void report(double residual, const ProgressSink& progress) const {
+  void report(const ProgressSink& progress) const {
     if (!progress) return;
     const double done =
         termination_.empty() ? static_cast<double>(iterations_) / method_.stopping.max_iterations : 1.0;
-    progress(
-        {scene_.pair.name, done, fmt::format("iteration {}: residual {:.3f} mm", iterations_, residual)});
+    progress({scene_.pair.name, done,
+              fmt::format("iteration {}: residual {:.3f} mm", iterations_, residuals_.back())});
   }
 
   StageTimes times_;
@@ -224,6 +247,7 @@ class Registration {
   PointSet moved_;
   ResidualMeter meter_;
   std::unique_ptr<BoundSolver> solver_;
+  std::vector<double> residuals_;  ///< mm, at the start and after each iteration
   int iterations_ = 0;
   std::string termination_;
   std::vector<SolverSummary> summaries_;

@@ -111,6 +111,14 @@ TEST_F(RunnerTest, TwoRunsGiveTheSameBits) {
   EXPECT_EQ(text_of("first/registered.ply"), text_of("second/registered.ply"));
 }
 
+TEST_F(RunnerTest, AdaptiveConstraintsThatSwingEndTheLoop) {
+  // A threshold below the noise: masks gain and lose constraints in every iteration.
+  run(plan("data: {noise: 1}\ngraph: {type: quadtree}\nsampler: {type: adaptive, threshold: 1}"), "out");
+  const RegistrationResult& result = records_.at(0).result;
+  EXPECT_EQ(result.termination, "no_progress");
+  EXPECT_LT(result.counts.outer_iterations, 30);
+}
+
 TEST_F(RunnerTest, AnotherSeedGivesOtherNoise) {
   const ordered_json one = run(plan("data: {noise: 1}"), "one");
   const ordered_json two = run(plan("data: {noise: 1}\nseed: 2"), "two");
