@@ -1,0 +1,303 @@
+#include "framework/registration/registration.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/core/error.h"
+#include "framework/deformation/warp.h"
+#include "framework/registration/metrics.h"
+#include "tests/experiments/experiment_files.h"
+
+// The loop of Figure 4.1 on small sheets, with the components that come with the project.
+namespace pliant::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+class RegistrationTest : public ExperimentFiles {
+ protected:
+  Parameters values_of(const std::vector<std::string>& sets) const { return plan("", sets).runs[0].values; }
+  Method method_of(const std::vector<std::string>& sets) const {
+    return make_method(values_of(sets), registry_);
+  }
+  FramePair pair_of(const std::vector<std::string>& sets) { return workbench_.pair(values_of(sets)); }
+
+  RegistrationResult register_sheet(const std::vector<std::string>& sets) {
+    return register_pair(pair_of(sets), method_of(sets), device_, 1);
+  }
+
+  Device device_;
+};
+
+Metrics measure(const FramePair& pair, const RegistrationResult& result,
+                const std::vector<Eigen::Vector3f>& points) {
+  return Evaluation(pair, result.source, make_surface_map(pair.target, pair.camera)).measure(points);
+}
+
+double end_point_error(const FramePair& pair, const RegistrationResult& result) {
+  return measure(pair, result, result.points).truth.value().epe_mean;
+}
+
+TEST_F(RegistrationTest, EndsAsSoonAsTheResidualIsBelow) {
+  const std::vector<std::string> sets{"stopping={residual: 3}"};
+  const FramePair pair = pair_of(sets);
+  const RegistrationResult result = register_sheet(sets);
+  EXPECT_EQ(result.termination, "residual");
+  EXPECT_GT(measure(pair, result, result.aligned_points).residual_mean, 3);
+  EXPECT_LT(measure(pair, result, result.points).residual_mean, 3);
+  EXPECT_LT(result.counts.outer_iterations, 30);
+}
+
+TEST_F(RegistrationTest, EndsAfterAsManyIterationsAsAllowed) {
+  for (const int allowed : {1, 4}) {
+    const auto result =
+        register_sheet({"stopping={min_progress: 0, max_iterations: " + std::to_string(allowed) + "}"});
+    EXPECT_EQ(result.termination, "max_iterations");
+    EXPECT_EQ(result.counts.outer_iterations, allowed);
+    EXPECT_EQ(result.energy.per_iteration.size(), static_cast<std::size_t>(allowed));
+  }
+}
+
+TEST_F(RegistrationTest, EndsWithoutProgress) {
+  const auto result = register_sheet({"stopping={min_progress: 0.05, max_iterations: 100}"});
+  EXPECT_EQ(result.termination, "no_progress");
+  EXPECT_LT(result.counts.outer_iterations, 100);
+  const auto impatient = register_sheet({"stopping={min_progress: 1, max_iterations: 100}"});
+  EXPECT_EQ(impatient.termination, "no_progress");
+  EXPECT_EQ(impatient.counts.outer_iterations, 1);
+}
+
+TEST_F(RegistrationTest, TellsOfEveryIteration) {
+  std::vector<Progress> told;
+  const std::vector<std::string> sets{"stopping={min_progress: 0, max_iterations: 3}"};
+  register_pair(pair_of(sets), method_of(sets), device_, 1,
+                [&](const Progress& progress) { told.push_back(progress); });
+  ASSERT_EQ(told.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(told[i].what, "synthetic sheet");
+    EXPECT_NEAR(told[i].done, (static_cast<double>(i) + 1) / 3, 1e-12);
+    EXPECT_THAT(told[i].message, HasSubstr("iteration " + std::to_string(i + 1) + ": residual "));
+  }
+}
+
+TEST_F(RegistrationTest, BringsTheSheetWhereItTrulyWent) {
+  const std::vector<std::string> sets{"energies.point_to_plane={weight: 100}"};
+  const FramePair pair = pair_of(sets);
+  const RegistrationResult result = register_sheet(sets);
+  const Metrics before = measure(pair, result, result.aligned_points);
+  const Metrics after = measure(pair, result, result.points);
+  EXPECT_LT(after.residual_mean, 0.2 * before.residual_mean);
+  EXPECT_LT(after.truth.value().epe_mean, 0.3 * before.truth.value().epe_mean);
+  EXPECT_LT(result.energy.final, result.energy.initial);
+}
+
+TEST_F(RegistrationTest, SameSeedSameBits) {
+  const std::vector<std::string> sets{"alignment=automatic",
+                                      "graph={type: quadtree, refine_threshold: 1, "
+                                      "collapse_threshold: 0.5}",
+                                      "sampler={type: adaptive, threshold: 1}", "filter=bilateral",
+                                      "data.noise=1"};
+  const RegistrationResult first = register_sheet(sets);
+  Device other;
+  const RegistrationResult second = register_pair(pair_of(sets), method_of(sets), other, 1);
+  EXPECT_EQ(first.points, second.points);
+  EXPECT_EQ(first.normals, second.normals);
+  EXPECT_EQ(first.node_positions, second.node_positions);
+  EXPECT_EQ(first.energy.per_iteration, second.energy.per_iteration);
+  EXPECT_EQ(first.termination, second.termination);
+}
+
+// --- pairs and graphs that give too little ---
+
+TEST_F(RegistrationTest, NeedsANodeAndAConstraintOnTheSource) {
+  EXPECT_THAT([&] { register_sheet({"graph={type: uniform, spacing: 1024}"}); },
+              ThrowsMessage<DataError>(AllOf(HasSubstr("synthetic sheet"),
+                                             HasSubstr("no node of the graph falls on the source"))));
+  EXPECT_THAT([&] { register_sheet({"sampler={type: uniform, step: 256}"}); },
+              ThrowsMessage<DataError>(HasSubstr("no constraint falls on the source")));
+}
+
+TEST_F(RegistrationTest, NeedsOneNodeMoreThanMoveAPoint) {
+  EXPECT_THAT(
+      [&] {
+        register_sheet({"graph={type: uniform, spacing: 40}", "nearest_nodes=12"});
+      },
+      ThrowsMessage<DataError>(HasSubstr("need at least 13")));
+}
+
+TEST_F(RegistrationTest, NeedsAPointThatLands) {
+  FramePair pair = pair_of({});
+  const int middle = pair.camera.width / 2;
+  for (int v = 0; v < pair.camera.height; ++v) {
+    for (int u = 0; u < pair.camera.width; ++u) (u < middle ? pair.source : pair.target).depth(u, v) = 0;
+  }
+  EXPECT_THAT([&] { register_pair(pair, method_of({}), device_, 1); },
+              ThrowsMessage<DataError>(AllOf(HasSubstr("no point of the source projects onto"),
+                                             HasSubstr("an initial alignment may help"))));
+}
+
+// --- adapting ---
+
+/// Graph and affine forms whenever a solver is bound (`start`) and when it was last done with them (`end`).
+struct Binding {
+  std::vector<Eigen::Vector3f> nodes;
+  std::vector<float> start;
+  std::vector<float> end;
+};
+
+class WatchedSolver : public Solver {
+ public:
+  WatchedSolver(std::unique_ptr<Solver> solver, std::vector<Binding>& bindings)
+      : solver_(std::move(solver)), bindings_(bindings) {}
+
+  std::unique_ptr<BoundSolver> bind(Problem& problem, Device& device) const override {
+    bindings_.push_back({problem.graph().nodes, problem.unknowns().host(), {}});
+    return std::make_unique<Bound>(solver_->bind(problem, device), problem, bindings_);
+  }
+
+ private:
+  class Bound : public BoundSolver {
+   public:
+    Bound(std::unique_ptr<BoundSolver> solver, const Problem& problem, std::vector<Binding>& bindings)
+        : solver_(std::move(solver)), problem_(problem), bindings_(bindings) {}
+    void solve() override {
+      solver_->solve();
+      bindings_.back().end = problem_.unknowns().host();
+    }
+    std::vector<SolverSummary> summaries() override { return solver_->summaries(); }
+
+   private:
+    std::unique_ptr<BoundSolver> solver_;
+    const Problem& problem_;
+    std::vector<Binding>& bindings_;
+  };
+
+  std::unique_ptr<Solver> solver_;
+  std::vector<Binding>& bindings_;
+};
+
+Eigen::Vector3f translation(const std::vector<float>& affine, std::size_t node) {
+  return Eigen::Vector3f(affine.data() + affine_size * node + 9);
+}
+
+std::vector<float> flat(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<float> values;
+  for (const auto& point : points) values.insert(values.end(), point.data(), point.data() + 3);
+  return values;
+}
+
+/// Where the deformation that `before` ended with moves `points`.
+std::vector<Eigen::Vector3f> moved_by(const Binding& before, const std::vector<Eigen::Vector3f>& points,
+                                      int k) {
+  const PointSet rest{Array<float>(flat(points)), Array<float>(std::vector<float>(3 * points.size(), 0))};
+  const auto influences = compute_influences_reference(rest.points.host(), before.nodes, k);
+  const auto moved =
+      warp_reference(rest, influences, Array<float>(flat(before.nodes)), Array<float>(before.end));
+  return unflatten(moved.points);
+}
+
+/// How many nodes were there before.
+int expect_carried_over(const Binding& before, const Binding& after, int k) {
+  const auto moved = moved_by(before, after.nodes, k);
+  int kept = 0;
+  for (std::size_t i = 0; i < after.nodes.size(); ++i) {
+    const auto old = std::find(before.nodes.begin(), before.nodes.end(), after.nodes[i]);
+    if (old == before.nodes.end()) {
+      EXPECT_LT((translation(after.start, i) - (moved[i] - after.nodes[i])).norm(), 1e-2) << "new node " << i;
+    } else {
+      const auto j = static_cast<std::size_t>(old - before.nodes.begin());
+      EXPECT_EQ(translation(after.start, i), translation(before.end, j)) << "kept node " << i;
+      ++kept;
+    }
+  }
+  return kept;
+}
+
+TEST_F(RegistrationTest, AnAdaptedGraphStartsWhereTheOneBeforeEnded) {
+  const std::vector<std::string> sets{
+      "graph={type: quadtree, initial_levels: 2, levels: 4, refine_threshold: 2, collapse_threshold: 0.1}",
+      "nearest_nodes=3", "sampler={type: adaptive, threshold: 1}", "stopping={max_iterations: 5}"};
+  std::vector<Binding> bindings;
+  Method method = method_of(sets);
+  method.solver = std::make_unique<WatchedSolver>(std::move(method.solver), bindings);
+  const RegistrationResult result = register_pair(pair_of(sets), method, device_, 1);
+  ASSERT_GE(bindings.size(), 2U);
+  EXPECT_THAT(bindings[0].start, Each(0));
+  EXPECT_GT(bindings.back().nodes.size(), bindings[0].nodes.size());
+  EXPECT_GT(translation(bindings[1].start, 0).norm(), 1) << "there is something to carry over";
+  int kept = 0;
+  for (std::size_t i = 1; i < bindings.size(); ++i)
+    kept += expect_carried_over(bindings[i - 1], bindings[i], 3);
+  EXPECT_GT(kept, 0);
+  EXPECT_EQ(result.node_positions, bindings.back().nodes);
+  EXPECT_EQ(result.energy.per_iteration.size(), static_cast<std::size_t>(result.counts.outer_iterations));
+}
+
+TEST_F(RegistrationTest, AdaptingFitsBetterThanTheGraphItBeganWith) {
+  const std::string coarse =
+      "graph={type: quadtree, initial_levels: 2, levels: 2, refine_threshold: 1, "
+      "collapse_threshold: 0.1}";
+  const std::string growing =
+      "graph={type: quadtree, initial_levels: 2, levels: 5, refine_threshold: 1, "
+      "collapse_threshold: 0.1}";
+  const auto residual = [&](const std::string& graph, const char* sampler) {
+    const std::vector<std::string> sets{graph, "nearest_nodes=3", sampler, "data.amplitude=40"};
+    const RegistrationResult result = register_sheet(sets);
+    return measure(pair_of(sets), result, result.points).residual_mean;
+  };
+  EXPECT_LT(residual(growing, "sampler={type: adaptive, threshold: 1}"),
+            0.7 * residual(coarse, "sampler={type: uniform, step: 4}"));
+}
+
+// --- the filter ---
+
+TEST_F(RegistrationTest, AFilterSmoothsWhatIsRegisteredAndNotWhatIsReturned) {
+  const std::vector<std::string> noisy{"data.noise=2"};
+  const std::vector<std::string> filtering{"data.noise=2", "filter=bilateral"};
+  const FramePair pair = pair_of(noisy);
+  const RegistrationResult without = register_sheet(noisy);
+  const RegistrationResult with = register_sheet(filtering);
+  EXPECT_EQ(with.source.points, without.source.points);
+  EXPECT_EQ(without.aligned_points, without.source.points) << "no alignment, no filter";
+  EXPECT_EQ(with.aligned_points, with.source.points);
+  EXPECT_NE(with.points, without.points);
+}
+
+// --- features ---
+
+TEST_F(RegistrationTest, FeaturesAskForNothingWithoutColor) {
+  const std::vector<std::string> plain{"alignment=automatic", "stopping={max_iterations: 3}"};
+  std::vector<std::string> more = plain;
+  more.push_back("energies.feature={weight: 1000}");
+  FramePair pair = pair_of(plain);
+  pair.source.color = {};
+  const RegistrationResult without = register_pair(pair, method_of(plain), device_, 1);
+  const RegistrationResult with = register_pair(pair, method_of(more), device_, 1);
+  EXPECT_EQ(with.alignment.features.size(), 0U);
+  ASSERT_EQ(with.points.size(), without.points.size());
+  for (std::size_t i = 0; i < with.points.size(); ++i)
+    ASSERT_LT((with.points[i] - without.points[i]).norm(), 1e-2) << "point " << i;
+}
+
+// Rolled like this the thesis's constraints alone slide along the viewing rays; the features know better.
+TEST_F(RegistrationTest, FeaturesPullWhereDepthCannotTell) {
+  const std::vector<std::string> plain{"alignment=automatic",         "data.image_width=320",
+                                       "data.image_height=240",       "data.focal_length=262.5",
+                                       "data.amplitude=40",           "sampler={type: uniform, step: 8}",
+                                       "stopping={max_iterations: 6}"};
+  std::vector<std::string> more = plain;
+  more.push_back("energies.feature={weight: 1000}");
+  const FramePair pair = pair_of(plain);
+  const RegistrationResult without = register_sheet(plain);
+  const RegistrationResult with = register_sheet(more);
+  EXPECT_GT(with.alignment.features.size(), 20U);
+  EXPECT_LT(end_point_error(pair, with), 0.8 * end_point_error(pair, without));
+}
+
+}  // namespace
+}  // namespace pliant::testing
