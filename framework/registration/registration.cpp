@@ -160,11 +160,16 @@ class Registration {
     warp(device_, scene_.rest, model_.influences, model_.node_points, model_.problem->unknowns(), moved_);
   }
 
-  /// The deformation of the filtered points, applied to those that were given.
+  /// Moves each point that was given as the filtered one in its place was moved. The transforms are not
+  /// applied to it: nothing determines what they do across the surface they were fitted to, and noise would
+  /// be stretched by that.
   void deform_unfiltered() {
-    const Influences influences = compute_influences(device_, scene_.unfiltered->points,
-                                                     model_.problem->graph().nodes, method_.nearest_nodes);
-    warp(device_, *scene_.unfiltered, influences, model_.node_points, model_.problem->unknowns(), moved_);
+    const PointSet given{scene_.rest.points, scene_.unfiltered->normals};
+    warp(device_, given, model_.influences, model_.node_points, model_.problem->unknowns(), moved_);
+    const auto& filtered = scene_.rest.points.host();
+    const auto& unfiltered = scene_.unfiltered->points.host();
+    auto& moved = moved_.points.write_host();
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += unfiltered[i] - filtered[i];
   }
 
   double measure() {
