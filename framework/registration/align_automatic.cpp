@@ -48,7 +48,8 @@ class AutomaticAlignment : public Alignment {
     const bool is_trusted = found.inliers >= options_.min_inliers;
     if (is_trusted && cut_residual(pair, found.motion) < cut_residual(pair, stay)) return found;
     found.motion = stay;
-    if (!is_trusted) found.features = {};
+    found.features =
+        is_trusted ? keep_deformable(found.features, stay, options_.max_deformation) : PointMatches{};
     return found;
   }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "framework/problem/energy.h"
+#include "framework/problem/loss.h"
 
 namespace pliant {
 namespace {
@@ -25,6 +26,24 @@ TEST_P(EveryLoss, HasItsDerivatives) {
     EXPECT_NEAR(loss_.weight(s), (loss_.value(s + step) - loss_.value(s - step)) / (2 * step), 1e-7) << s;
     EXPECT_NEAR(loss_.curvature(s), (loss_.weight(s + step) - loss_.weight(s - step)) / (2 * step), 1e-7)
         << s;
+  }
+}
+
+/// rho, with rho' in its jet, of a loss over jets, by its name.
+ceres::Jet<double, 1> value_over_jets(const std::string& name, double s, double scale) {
+  using Jet = ceres::Jet<double, 1>;
+  const Jet at(s, 0);
+  if (name == "huber") return huber_value<Jet>(at, Jet(scale));
+  if (name == "tukey") return tukey_value<Jet>(at, Jet(scale));
+  if (name == "welsch") return welsch_value<Jet>(at, Jet(scale));
+  return none_value<Jet>(at, Jet(scale));
+}
+
+TEST_P(EveryLoss, HasTheDerivativeOfItsJets) {
+  for (const double s : {0.0, 0.01, 1.0, 8.999, 9.001, 30.0, 200.0}) {
+    const auto jet = value_over_jets(GetParam(), s, 3);
+    EXPECT_DOUBLE_EQ(jet.a, loss_.value(s));
+    EXPECT_NEAR(jet.v[0], loss_.weight(s), 1e-14) << s;
   }
 }
 

@@ -154,6 +154,14 @@ TEST(FeatureAlignment, FindsHowAPlaneMoved) {
   }
 }
 
+TEST(FeatureAlignment, GivesTheMatchesThatGoWithTheMotion) {
+  const AlignmentResult result = align_by_features(moved_plane(), {}, 1);
+  EXPECT_GE(result.features.size(), static_cast<std::size_t>(0.8 * result.inliers));
+  EXPECT_LE(result.features.size(), static_cast<std::size_t>(result.matches));
+  for (std::size_t i = 0; i < result.features.size(); ++i)
+    EXPECT_LT((result.motion * result.features.from[i] - result.features.to[i]).norm(), 120);
+}
+
 TEST(FeatureAlignment, SameSeedSameBits) {
   const AlignmentResult first = make_features()->align(moved_plane(), 5);
   const AlignmentResult second = make_features()->align(moved_plane(), 5);
@@ -228,6 +236,48 @@ TEST(AutomaticAlignment, StaysWithoutColorTextureOrAgreement) {
     EXPECT_TRUE(result.motion.matrix().isIdentity(0));
     EXPECT_EQ(result.features.size(), 0u);
   }
+}
+
+// Slid out of view along itself, the plane lies no nearer for being brought back.
+TEST(AutomaticAlignment, KeepsOnlyFeaturesThatADeformationCouldHaveMadeOfWhereItStays) {
+  const auto slid = [](double distance) {
+    FramePair pair = moved_plane();
+    pair.target = render_plane(Eigen::Isometry3d(Eigen::Translation3d(distance, 0, 0)), 11);
+    return make_automatic()->align(pair, 1);
+  };
+  const AlignmentResult near = slid(60);
+  EXPECT_TRUE(near.motion.matrix().isIdentity(0));
+  EXPECT_GT(near.features.size(), 10u);
+  const AlignmentResult far = slid(150);  // beyond max_deformation
+  EXPECT_TRUE(far.motion.matrix().isIdentity(0));
+  for (std::size_t i = 0; i < far.features.size(); ++i)
+    EXPECT_LT((far.motion * far.features.from[i] - far.features.to[i]).norm(), 120);
+}
+
+// Of 8 x 5 pixels it looks at (2, 2), seen straight ahead, and (6, 2).
+TEST(CutResidual, OfTwoPixelsByHand) {
+  FramePair pair;
+  pair.camera = {100, 100, 2, 2, 8, 5};
+  pair.source.depth = DepthImage(8, 5);
+  pair.target.depth = DepthImage(8, 5, 530);
+  const auto stay = Eigen::Isometry3d::Identity();
+  EXPECT_EQ(cut_residual(pair, stay), 100) << "no point of the source";
+  pair.source.depth(2, 2) = 500;
+  EXPECT_NEAR(cut_residual(pair, stay), 30, 1e-9);
+  EXPECT_NEAR(cut_residual(pair, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 10))), 20, 1e-9);
+  EXPECT_NEAR(cut_residual(pair, stay, 25), 25, 1e-9);
+  pair.source.depth(6, 2) = 500;  // at (20, 0, 500); its pixel's target at (21.2, 0, 530)
+  EXPECT_NEAR(cut_residual(pair, stay), (30 + std::hypot(1.2, 30)) / 2, 1e-9);
+  pair.target.depth(2, 2) = 0;
+  EXPECT_NEAR(cut_residual(pair, stay), (100 + std::hypot(1.2, 30)) / 2, 1e-9);
+  pair.source.mask = MaskImage(8, 5, 1);
+  pair.source.mask(2, 2) = 0;
+  EXPECT_NEAR(cut_residual(pair, stay), std::hypot(1.2, 30), 1e-9);
+  pair.target.mask = MaskImage(8, 5);
+  EXPECT_EQ(cut_residual(pair, stay), 100);
+  pair.target.mask = {};
+  EXPECT_EQ(cut_residual(pair, Eigen::Isometry3d(Eigen::Translation3d(0, 0, -600))), 100) << "behind";
+  EXPECT_EQ(cut_residual(pair, Eigen::Isometry3d(Eigen::Translation3d(90, 0, 0))), 100) << "outside";
 }
 
 TEST(CutResidual, IsTheMeanDistanceAndCountsMissesInFull) {
