@@ -6,7 +6,7 @@ kernel void choose(int2 masks, int step, global const int* spread_rows, float th
   const int mask = get_global_id(0);
   if (mask >= masks.x * masks.y) return;
   const int2 origin = (int2)(mask % masks.x, mask / masks.x) * step - corner % step;
-  const int2 lowest = max(origin, 0);
+  const int2 lowest = max(origin, (int2)(0));  // not max(origin, 0): Oclgrind 21.10 reads past a scalar there
   const int2 highest = min(origin + step, size);
 
   float sum = 0, known = 0;

@@ -1,23 +1,30 @@
-# Fails when the simulator finds anything, or when it did not run the registration to its end.
+# Runs COMMAND in the simulator with CHECKS. Fails when the simulator finds anything, when COMMAND fails, when one
+# of KERNELS did not run in it, or when the result in OUT has fewer than LEAST_NODES nodes (where given).
 if(NOT OCLGRIND)
   message("SKIPPED: oclgrind is not installed")
   return()
 endif()
-# One thread and unoptimised kernels: the simulator's own record of what was written is neither safe with several
-# threads nor complete for vectors that live across loops (version 21.10).
-execute_process(
-  COMMAND ${OCLGRIND} --num-threads 1 ${CHECKS} --build-options -cl-opt-disable
-          ${PROGRAM} run ${EXPERIMENT} --out ${OUT}
+if(PRELOAD)  # oclgrind sets LD_PRELOAD itself
+  set(COMMAND sh -c "LD_PRELOAD=\"$0:$LD_PRELOAD\" exec \"$@\"" ${PRELOAD} ${COMMAND})
+endif()
+execute_process(COMMAND ${OCLGRIND} --inst-counts ${CHECKS} ${COMMAND}
   OUTPUT_VARIABLE PRINTED ERROR_VARIABLE PRINTED RESULT_VARIABLE CODE)
 message("${PRINTED}")
 if(NOT CODE EQUAL 0)
-  message(FATAL_ERROR "the registration ended with ${CODE}")
+  message(FATAL_ERROR "the program ended with ${CODE}")
 endif()
-if(PRINTED MATCHES "Invalid|Uninitiali[sz]ed|race|Oclgrind:")
+if(PRINTED MATCHES "Invalid (read|write)|[Uu]ninitiali[sz]ed|data race|Oclgrind:")
   message(FATAL_ERROR "the simulator found an error")
 endif()
-file(READ ${OUT}/result.json RESULT)
-string(JSON DEVICE GET "${RESULT}" environment device)
-if(NOT DEVICE MATCHES "Oclgrind")
-  message(FATAL_ERROR "the registration ran on ${DEVICE}, not in the simulator")
+foreach(KERNEL ${KERNELS})
+  if(NOT PRINTED MATCHES "executed for kernel '${KERNEL}'")
+    message(FATAL_ERROR "kernel ${KERNEL} did not run in the simulator")
+  endif()
+endforeach()
+if(LEAST_NODES)
+  file(READ ${OUT}/result.json RESULT)
+  string(JSON NODES GET "${RESULT}" runs 0 counts nodes)
+  if(NODES LESS LEAST_NODES)
+    message(FATAL_ERROR "${NODES} nodes: the graph did not adapt")
+  endif()
 endif()
