@@ -122,13 +122,6 @@ TEST_F(RegistrationTest, NeedsANodeAndAConstraintOnTheSource) {
               ThrowsMessage<DataError>(HasSubstr("no constraint falls on the source")));
 }
 
-TEST_F(RegistrationTest, AGraphOfFewNodesMovesEveryPointByAllOfThem) {
-  const auto result = register_sheet({"graph={type: uniform, spacing: 40}", "nearest_nodes=16"});
-  EXPECT_EQ(result.counts.nodes, 12);
-  EXPECT_EQ(result.counts.edges, 12 * 11);
-  EXPECT_LT(result.energy.final, result.energy.initial);
-}
-
 TEST_F(RegistrationTest, NeedsAPointThatLands) {
   FramePair pair = pair_of({});
   const int middle = pair.camera.width / 2;
