@@ -253,6 +253,41 @@ TEST_F(RegistrationTest, AdaptingFitsBetterThanTheGraphItBeganWith) {
   }
 }
 
+// --- rigid nodes ---
+
+/// How far the matrix of any node is from a rotation.
+double distance_from_rotations(const std::vector<float>& forms) {
+  double worst = 0;
+  for (std::size_t at = 0; at < forms.size(); at += affine_size) {
+    const Eigen::Matrix3f R =
+        Eigen::Map<const Eigen::Matrix3f>(forms.data() + at) + Eigen::Matrix3f::Identity();
+    worst = std::max({worst, static_cast<double>((R.transpose() * R - Eigen::Matrix3f::Identity()).norm()),
+                      std::abs(R.determinant() - 1.0)});
+  }
+  return worst;
+}
+
+TEST_F(RegistrationTest, RigidNodesBringTheSheetWhereItTrulyWent) {
+  const std::vector<std::string> plain{"energies.point_to_plane={weight: 100}", "transform=quaternion"};
+  const std::vector<std::string> growing{
+      "energies.point_to_plane={weight: 100}", "transform=quaternion", "nearest_nodes=3",
+      "graph={type: quadtree, initial_levels: 2, levels: 5, refine_threshold: 1, collapse_threshold: 0.1}"};
+  for (const auto& sets : {plain, growing}) {
+    SCOPED_TRACE(sets.back());
+    const FramePair pair = pair_of(sets);
+    std::vector<Binding> bindings;
+    Method method = method_of(sets);
+    method.solver = std::make_unique<WatchedSolver>(std::move(method.solver), bindings);
+    const RegistrationResult result = register_pair(pair, method, device_, 1);
+    EXPECT_EQ(result.counts.unknowns, 6 * result.counts.nodes);
+    EXPECT_LT(end_point_error(pair, result),
+              0.3 * measure(pair, result, result.aligned_points).truth.value().epe_mean);
+    for (const Binding& binding : bindings) EXPECT_LT(distance_from_rotations(binding.end), 3e-6);
+    const RegistrationResult again = register_sheet(sets);
+    EXPECT_EQ(again.points, result.points) << "the same bits";
+  }
+}
+
 // --- the filter ---
 
 TEST_F(RegistrationTest, AFilterSmoothsWhatIsRegisteredAndNotWhatIsReturned) {
