@@ -6,7 +6,8 @@ void load_form(float* form, int node, global const float* forms) {
   for (int entry = 0; entry < 12; ++entry) form[entry] = forms[12 * node + entry];
 }
 
-// T_i^T B T_j of each 12x12 block.
+// T_i^T B T_j of each 12x12 block. Where a turn is free the terms of its diagonal entry cancel: what rounding
+// leaves below zero is zero.
 kernel void project_blocks(global const int* status, int count, global const int* rows,
                            global const int* columns, global const float* forms, global const float* blocks,
                            global float* projected) {
@@ -25,6 +26,7 @@ kernel void project_blocks(global const int* status, int count, global const int
     for (int a = 0; a < 12; ++a) v[a] = half_way[UNKNOWNS * a + b];
     PULL_BACK(form, v, pulled);
     for (int a = 0; a < UNKNOWNS; ++a) out[STRIDE * a + b] = pulled[a];
+    if (rows[block] == columns[block] && pulled[b] < 0) out[(STRIDE + 1) * b] = 0;
   }
 }
 

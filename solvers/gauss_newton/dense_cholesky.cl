@@ -6,7 +6,7 @@
 #define TILE 32
 
 // Places the STRIDE x STRIDE blocks; the diagonal is raised by lambda (status[3]). An unknown that nothing
-// touches has a row of zeros, or of what rounding left: a 1 on its diagonal keeps it where it is.
+// touches has a row of zeros: a 1 on its diagonal keeps it where it is.
 kernel void scatter(global const int* status, int block_count, int n, global const int* rows,
                     global const int* columns, global const float* blocks, global float* A) {
   const int pair = get_global_id(0);
@@ -16,7 +16,7 @@ kernel void scatter(global const int* status, int block_count, int n, global con
     for (int b = 0; b < STRIDE; ++b) {
       const int row = STRIDE * rows[pair] + a, column = STRIDE * columns[pair] + b;
       const float value = blocks[STRIDE * STRIDE * pair + STRIDE * a + b];
-      A[row * n + column] = row != column ? value : value <= 0 ? 1 : value * (1 + damping);
+      A[row * n + column] = row != column ? value : value == 0 ? 1 : value * (1 + damping);
     }
 }
 
