@@ -9,6 +9,7 @@
 #include "framework/deformation/warp.h"
 #include "framework/registration/metrics.h"
 #include "tests/experiments/experiment_files.h"
+#include "tests/problem/sheet_problem.h"
 
 // The loop of Figure 4.1 on small sheets, with the components that come with the project.
 namespace pliant::testing {
@@ -255,18 +256,6 @@ TEST_F(RegistrationTest, AdaptingFitsBetterThanTheGraphItBeganWith) {
 
 // --- rigid nodes ---
 
-/// How far the matrix of any node is from a rotation.
-double distance_from_rotations(const std::vector<float>& forms) {
-  double worst = 0;
-  for (std::size_t at = 0; at < forms.size(); at += affine_size) {
-    const Eigen::Matrix3f R =
-        Eigen::Map<const Eigen::Matrix3f>(forms.data() + at) + Eigen::Matrix3f::Identity();
-    worst = std::max({worst, static_cast<double>((R.transpose() * R - Eigen::Matrix3f::Identity()).norm()),
-                      std::abs(R.determinant() - 1.0)});
-  }
-  return worst;
-}
-
 TEST_F(RegistrationTest, RigidNodesBringTheSheetWhereItTrulyWent) {
   const std::vector<std::string> plain{"energies.point_to_plane={weight: 100}", "transform=quaternion"};
   const std::vector<std::string> growing{
@@ -282,7 +271,7 @@ TEST_F(RegistrationTest, RigidNodesBringTheSheetWhereItTrulyWent) {
     EXPECT_EQ(result.counts.unknowns, 6 * result.counts.nodes);
     EXPECT_LT(end_point_error(pair, result),
               0.3 * measure(pair, result, result.aligned_points).truth.value().epe_mean);
-    for (const Binding& binding : bindings) EXPECT_LT(distance_from_rotations(binding.end), 3e-6);
+    for (const Binding& binding : bindings) EXPECT_LT(test::distance_from_rotations(binding.end), 3e-6);
     const RegistrationResult again = register_sheet(sets);
     EXPECT_EQ(again.points, result.points) << "the same bits";
   }
