@@ -101,7 +101,7 @@ Model make_model(const Scene& scene, const Method& method, Device& device, const
       make_constraints(device, method, pick(scene.aligned.points, samples.points()), positions);
   auto problem = std::make_unique<Problem>(DeformationGraph{positions, std::move(edges)},
                                            make_terms(device, method, scene, positions, constraints),
-                                           method.length_unit);
+                                           method.length_unit, *method.transform);
   return {nodes.points(),         flatten(positions), std::move(influences), Array<int>(samples.points()),
           std::move(constraints), std::move(problem)};
 }

@@ -25,7 +25,7 @@ struct RegistrationResult {
     int nodes = 0;
     int edges = 0;
     int constraints = 0;
-    int unknowns = 0;
+    int unknowns = 0;  ///< 12 a node of transform `affine`, 6 of `quaternion`
     int outer_iterations = 0;
     int solver_iterations = 0;
   } counts;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "framework/core/error.h"
-#include "framework/deformation/warp.h"
 #include "solvers/gauss_newton/dense_cholesky.cl.embed.h"
 #include "solvers/gauss_newton/stepwise.h"
 
@@ -29,7 +28,7 @@ class DenseCholeskySteps : public StepSolver {
   explicit DenseCholeskySteps(NormalEquations& equations)
       : equations_(equations),
         device_(equations.device()),
-        unknowns_(affine_size * equations.node_count()),
+        unknowns_(equations.stride() * equations.node_count()),
         n_(checked_size(unknowns_)),
         blocks_(n_ / block),
         matrix_(device_.allocate(sizeof(float) * size() * size())),
@@ -49,7 +48,8 @@ class DenseCholeskySteps : public StepSolver {
  private:
   std::size_t size() const { return static_cast<std::size_t>(n_); }
   cl::Kernel kernel(const char* name) {
-    return device_.kernel(embedded::solvers_gauss_newton_dense_cholesky_cl, name);
+    return device_.kernel(embedded::solvers_gauss_newton_dense_cholesky_cl, name,
+                          fmt::format("-DSTRIDE={}", equations_.stride()));
   }
   // The inverse of diagonal block k inside the buffer of all of them.
   cl::Buffer at_block(cl::Buffer& buffer, int k) const {

@@ -370,6 +370,7 @@ TEST_F(HardInputTest, DepthThatIsNoneIsAHole) {
 const std::vector<Sets>& methods() {
   static const std::vector<Sets> all{
       {"graph.spacing=4", "sampler.step=1"},
+      {"graph.spacing=4", "sampler.step=1", "transform=quaternion"},
       {"graph={type: quadtree, initial_levels: 2}"},
       {"graph={type: quadtree, initial_levels: 1}", "sampler={type: adaptive, step: 2}"},
       {"graph.spacing=2", "sampler.step=1", "filter=bilateral",

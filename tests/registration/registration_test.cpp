@@ -9,6 +9,7 @@
 #include "framework/deformation/warp.h"
 #include "framework/registration/metrics.h"
 #include "tests/experiments/experiment_files.h"
+#include "tests/problem/sheet_problem.h"
 
 // The loop of Figure 4.1 on small sheets, with the components that come with the project.
 namespace pliant::testing {
@@ -242,6 +243,29 @@ TEST_F(RegistrationTest, AdaptingFitsBetterThanTheGraphItBeganWith) {
   for (const std::string sampler : {"{type: uniform, step: 4}", "{type: adaptive, threshold: 1}"}) {
     SCOPED_TRACE(sampler);
     EXPECT_LT(residual("5", sampler), 0.7 * residual("2", sampler));
+  }
+}
+
+// --- rigid nodes ---
+
+TEST_F(RegistrationTest, RigidNodesBringTheSheetWhereItTrulyWent) {
+  const std::vector<std::string> plain{"energies.point_to_plane={weight: 100}", "transform=quaternion"};
+  const std::vector<std::string> growing{
+      "energies.point_to_plane={weight: 100}", "transform=quaternion", "nearest_nodes=3",
+      "graph={type: quadtree, initial_levels: 2, levels: 5, refine_threshold: 1, collapse_threshold: 0.1}"};
+  for (const auto& sets : {plain, growing}) {
+    SCOPED_TRACE(sets.back());
+    const FramePair pair = pair_of(sets);
+    std::vector<Binding> bindings;
+    Method method = method_of(sets);
+    method.solver = std::make_unique<WatchedSolver>(std::move(method.solver), bindings);
+    const RegistrationResult result = register_pair(pair, method, device_, 1);
+    EXPECT_EQ(result.counts.unknowns, 6 * result.counts.nodes);
+    EXPECT_LT(end_point_error(pair, result),
+              0.3 * measure(pair, result, result.aligned_points).truth.value().epe_mean);
+    for (const Binding& binding : bindings) EXPECT_LT(test::distance_from_rotations(binding.end), 3e-6);
+    const RegistrationResult again = register_sheet(sets);
+    EXPECT_EQ(again.points, result.points) << "the same bits";
   }
 }
 
