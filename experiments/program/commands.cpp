@@ -28,6 +28,14 @@ fs::path out_folder(const ExperimentOptions& options, const ExperimentPlan& plan
   return options.out.empty() ? fs::path("out") / plan.name : fs::path(options.out);
 }
 
+void tell_end(const RunRecord& run) {
+  const RegistrationResult& result = run.result;
+  fmt::print("{}: {}{} after {} outer iterations; {} with {}\n", run.name, result.termination,
+             result.reason.empty() ? "" : " (" + result.reason + ")", result.counts.outer_iterations,
+             result.solver.name, result.solver.linear_solver);
+  for (const auto& warning : result.warnings) fmt::print("{}: warning: {}\n", run.name, warning);
+}
+
 }  // namespace
 
 ConfigSource config_source(const ExperimentOptions& options) {
@@ -45,10 +53,9 @@ void run_command(const ExperimentOptions& options) {
     runs = run_experiment(plan, folder, workbench, line.sink());
   }
   fmt::print("{}\n", to_text(run_table(plan, runs)));
-  for (const auto& run : runs)
-    fmt::print("{}: {} after {} outer iterations; {} with {}\n", run.name, run.result.termination,
-               run.result.counts.outer_iterations, run.result.solver.name, run.result.solver.linear_solver);
+  for (const auto& run : runs) tell_end(run);
   fmt::print("Results are in {}\n", folder.string());
+  check_ends(plan, runs);
 }
 
 void check_command(const ExperimentOptions& options) {

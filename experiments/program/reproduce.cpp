@@ -70,7 +70,9 @@ class Reproduction {
  private:
   std::vector<Table> run(const Item& item, const ExperimentPlan& plan) {
     ProgressLine line;
-    return {run_table(plan, run_experiment(plan, out_ / item.name, workbench_, line.sink()), item.name)};
+    const auto runs = run_experiment(plan, out_ / item.name, workbench_, line.sink());
+    check_ends(plan, runs);
+    return {run_table(plan, runs, item.name)};
   }
 
   std::vector<Table> compare(const Item& item, const ExperimentPlan& plan) {

@@ -51,6 +51,7 @@ SolverTrial solve_once(const Solver& solver, const Bench& bench) {
   bench.device.finish();
   trial.solve_ms = milliseconds_since(bound_at);
   trial.summary = bound->summaries().front();
+  if (trial.summary.termination == "failed") throw NumericalError(trial.summary.failure);
   trial.final_energy = problem.energy();
   return trial;
 }

@@ -70,6 +70,9 @@ ordered_json run_json(const RunRecord& run) {
   ordered_json times = {{"total", result.total_ms}};
   for (const auto& [stage, milliseconds] : result.time_ms) times[stage] = milliseconds;
   return {{"name", run.name},
+          {"termination", result.termination},
+          {"reason", result.reason},
+          {"warnings", result.warnings},
           {"counts", counts_json(result.counts)},
           {"metrics", metrics_json(run.metrics)},
           {"initial", metrics_json(run.initial)},

@@ -26,6 +26,10 @@ void check_experiment(const ExperimentPlan& plan, Workbench& workbench);
 std::vector<RunRecord> run_experiment(const ExperimentPlan& plan, const std::filesystem::path& folder,
                                       Workbench& workbench, const ProgressSink& progress = {});
 
+/// Throws NumericalError naming the place of the first run that failed; its result is that of the iteration
+/// before.
+void check_ends(const ExperimentPlan& plan, const std::vector<RunRecord>& runs);
+
 /// The key figures of each run. Links lead from `folder_name` (empty: from inside the folder).
 Table run_table(const ExperimentPlan& plan, const std::vector<RunRecord>& runs,
                 const std::string& folder_name = "");

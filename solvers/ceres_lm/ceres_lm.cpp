@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "framework/core/error.h"
 #include "framework/deformation/warp.h"
 #include "framework/problem/solver.h"
 
@@ -152,12 +151,11 @@ class BoundCeres : public BoundSolver {
 
     ceres::Solver::Summary summary;
     const auto energies = minimise(ceres_problem, summary);
-    if (!summary.IsSolutionUsable())
-      throw NumericalError("Ceres found no usable solution: " + summary.message);
+    record(summary, energies);
+    if (!summary.IsSolutionUsable()) return;
     auto& solution = problem_.unknowns().write_host();
     std::transform(unknowns.begin(), unknowns.end(), solution.begin(),
                    [](double x) { return static_cast<float>(x); });
-    record(summary, energies);
   }
 
   std::vector<SolverSummary> summaries() override { return summaries_; }
@@ -221,6 +219,10 @@ class BoundCeres : public BoundSolver {
     made.energies = energies;
     made.iterations = static_cast<int>(energies.size());
     made.termination = summary.termination_type == ceres::CONVERGENCE ? "converged" : "max_iterations";
+    if (!summary.IsSolutionUsable()) {
+      made.termination = "failed";
+      made.failure = "Ceres found no usable solution: " + summary.message;
+    }
     made.time_ms["jacobian"] = 1e3 * summary.jacobian_evaluation_time_in_seconds;
     made.time_ms["solver"] = 1e3 * summary.linear_solver_time_in_seconds;
     made.time_ms["energy"] = 1e3 * summary.residual_evaluation_time_in_seconds;

@@ -123,14 +123,6 @@ TEST_F(RegistrationTest, NeedsANodeAndAConstraintOnTheSource) {
               ThrowsMessage<DataError>(HasSubstr("no constraint falls on the source")));
 }
 
-TEST_F(RegistrationTest, NeedsOneNodeMoreThanMoveAPoint) {
-  EXPECT_THAT(
-      [&] {
-        register_sheet({"graph={type: uniform, spacing: 40}", "nearest_nodes=12"});
-      },
-      ThrowsMessage<DataError>(HasSubstr("need at least 13")));
-}
-
 TEST_F(RegistrationTest, NeedsAPointThatLands) {
   FramePair pair = pair_of({});
   const int middle = pair.camera.width / 2;
