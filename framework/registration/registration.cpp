@@ -94,6 +94,7 @@ Model make_model(const Scene& scene, const Method& method, Device& device, const
   check_selection(scene, "constraint", samples.points());
   const auto positions = pick(scene.aligned.points, nodes.points());
   Influences influences = compute_influences(device, scene.rest.points, positions, method.nearest_nodes);
+  influences.nodes.host();  // waits here for the device: its "weights" are not the time of "edges"
   auto edges =
       timed(times, "edges", [&] { return find_edges(influences, static_cast<int>(positions.size())); });
   auto constraints =
