@@ -96,7 +96,9 @@ class Subject {
         pair_(workbench.pair(experiment)),
         method_(make_method(experiment, workbench.registry())),
         device_(workbench.device(experiment)),
-        seed_(static_cast<std::uint64_t>(experiment.integer("seed"))) {}
+        seed_(static_cast<std::uint64_t>(experiment.integer("seed"))) {
+    device_.measure_stages(true);
+  }
 
   /// The registration that is not timed: it builds the kernels, and tells what comes out.
   void warm_up() {

@@ -45,11 +45,13 @@ RunRecord make_run(const ExperimentPlan::Run& run, const fs::path& folder, Workb
   const Method method = make_method(run.values, workbench.registry());
   RunRecord record;
   record.name = run.name;
+  Device& device = workbench.device(run.values);
+  device.measure_stages(true);
   record.result = told_with_place(run.place, [&] {
-    return register_pair(pair, method, workbench.device(run.values),
-                         static_cast<std::uint64_t>(run.values.integer("seed")),
+    return register_pair(pair, method, device, static_cast<std::uint64_t>(run.values.integer("seed")),
                          named_progress(progress, run.name));
   });
+  device.measure_stages(false);
   const SurfaceMap target = make_surface_map(pair.target, pair.camera);
   const Evaluation evaluation(pair, record.result.source, target);
   record.initial = evaluation.measure(record.result.source.points);

@@ -12,7 +12,8 @@ namespace pliant {
 
 /// Registers the source of a pair to its target [thesis Figure 4.1]. The same pair, method, seed and device
 /// give the same bits. Throws DataError when the pair or the graph gives too little to work with,
-/// NumericalError when there is no finite answer.
+/// NumericalError when there is no finite answer. The stages that run on the device are told in `time_ms`
+/// only while the device measures stages (Device::measure_stages).
 RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,
                                  std::uint64_t seed, const ProgressSink& progress = {});
 

@@ -44,7 +44,7 @@ struct RegistrationResult {
 
   std::string termination;  ///< why the outer loop ended
   double total_ms = 0;
-  StageTimes time_ms;
+  StageTimes time_ms;  ///< see docs/results.md
 };
 
 }  // namespace pliant
