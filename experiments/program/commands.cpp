@@ -28,6 +28,26 @@ fs::path out_folder(const ExperimentOptions& options, const ExperimentPlan& plan
   return options.out.empty() ? fs::path("out") / plan.name : fs::path(options.out);
 }
 
+void run(const ExperimentPlan& plan, const fs::path& folder, Workbench& workbench) {
+  std::vector<RunRecord> runs;
+  {
+    ProgressLine line;
+    runs = run_experiment(plan, folder, workbench, line.sink());
+  }
+  fmt::print("{}\n", to_text(run_table(plan, runs)));
+  for (const auto& run : runs)
+    fmt::print("{}: {} after {} outer iterations; {} with {}\n", run.name, run.result.termination,
+               run.result.counts.outer_iterations, run.result.solver.name, run.result.solver.linear_solver);
+}
+
+void edit(const ExperimentPlan& plan, const fs::path& folder, Workbench& workbench) {
+  const auto runs = edit_experiment(plan, folder, workbench);
+  fmt::print("{}\n", to_text(run_table(plan, runs)));
+  for (const auto& run : runs)
+    fmt::print("{}: {} after {} iterations; {} with {}\n", run.name, run.result.solver.termination,
+               run.result.counts.solver_iterations, run.result.solver.name, run.result.solver.linear_solver);
+}
+
 }  // namespace
 
 ConfigSource config_source(const ExperimentOptions& options) {
@@ -39,15 +59,10 @@ void run_command(const ExperimentOptions& options) {
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
   const fs::path folder = out_folder(options, plan);
   Workbench workbench(registry);
-  std::vector<RunRecord> runs;
-  {
-    ProgressLine line;
-    runs = run_experiment(plan, folder, workbench, line.sink());
-  }
-  fmt::print("{}\n", to_text(run_table(plan, runs)));
-  for (const auto& run : runs)
-    fmt::print("{}: {} after {} outer iterations; {} with {}\n", run.name, run.result.termination,
-               run.result.counts.outer_iterations, run.result.solver.name, run.result.solver.linear_solver);
+  if (plan.has_handles())
+    edit(plan, folder, workbench);
+  else
+    run(plan, folder, workbench);
   fmt::print("Results are in {}\n", folder.string());
 }
 

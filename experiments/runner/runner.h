@@ -26,8 +26,17 @@ void check_experiment(const ExperimentPlan& plan, Workbench& workbench);
 std::vector<RunRecord> run_experiment(const ExperimentPlan& plan, const std::filesystem::path& folder,
                                       Workbench& workbench, const ProgressSink& progress = {});
 
+/// The same for an experiment with handles (ExperimentPlan::has_handles), which run_experiment does not take.
+std::vector<EditRecord> edit_experiment(const ExperimentPlan& plan, const std::filesystem::path& folder,
+                                        Workbench& workbench);
+
+/// The handles of a run, by name.
+NamedHandles make_handles(const ExperimentPlan::Run& run, const Registry& registry);
+
 /// The key figures of each run. Links lead from `folder_name` (empty: from inside the folder).
 Table run_table(const ExperimentPlan& plan, const std::vector<RunRecord>& runs,
+                const std::string& folder_name = "");
+Table run_table(const ExperimentPlan& plan, const std::vector<EditRecord>& runs,
                 const std::string& folder_name = "");
 
 }  // namespace pliant
