@@ -28,24 +28,26 @@ fs::path out_folder(const ExperimentOptions& options, const ExperimentPlan& plan
   return options.out.empty() ? fs::path("out") / plan.name : fs::path(options.out);
 }
 
-void run(const ExperimentPlan& plan, const fs::path& folder, Workbench& workbench) {
-  std::vector<RunRecord> runs;
-  {
-    ProgressLine line;
-    runs = run_experiment(plan, folder, workbench, line.sink());
-  }
-  fmt::print("{}\n", to_text(run_table(plan, runs)));
-  for (const auto& run : runs)
-    fmt::print("{}: {} after {} outer iterations; {} with {}\n", run.name, run.result.termination,
-               run.result.counts.outer_iterations, run.result.solver.name, run.result.solver.linear_solver);
+void tell_end(const RunRecord& run) {
+  const RegistrationResult& result = run.result;
+  fmt::print("{}: {}{} after {} outer iterations; {} with {}\n", run.name, result.termination,
+             result.reason.empty() ? "" : " (" + result.reason + ")", result.counts.outer_iterations,
+             result.solver.name, result.solver.linear_solver);
+  for (const auto& warning : result.warnings) fmt::print("{}: warning: {}\n", run.name, warning);
 }
 
-void edit(const ExperimentPlan& plan, const fs::path& folder, Workbench& workbench) {
-  const auto runs = edit_experiment(plan, folder, workbench);
+void tell_end(const EditRecord& run) {
+  const EditResult& result = run.result;
+  fmt::print("{}: {} after {} iterations; {} with {}\n", run.name, result.solver.termination,
+             result.counts.solver_iterations, result.solver.name, result.solver.linear_solver);
+  for (const auto& warning : result.warnings) fmt::print("{}: warning: {}\n", run.name, warning);
+}
+
+template <class Record>
+void tell(const ExperimentPlan& plan, const std::vector<Record>& runs, const fs::path& folder) {
   fmt::print("{}\n", to_text(run_table(plan, runs)));
-  for (const auto& run : runs)
-    fmt::print("{}: {} after {} iterations; {} with {}\n", run.name, run.result.solver.termination,
-               run.result.counts.solver_iterations, run.result.solver.name, run.result.solver.linear_solver);
+  for (const auto& run : runs) tell_end(run);
+  fmt::print("Results are in {}\n", folder.string());
 }
 
 }  // namespace
@@ -59,11 +61,17 @@ void run_command(const ExperimentOptions& options) {
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
   const fs::path folder = out_folder(options, plan);
   Workbench workbench(registry);
-  if (plan.has_handles())
-    edit(plan, folder, workbench);
-  else
-    run(plan, folder, workbench);
-  fmt::print("Results are in {}\n", folder.string());
+  if (plan.has_handles()) {
+    tell(plan, edit_experiment(plan, folder, workbench), folder);
+    return;
+  }
+  std::vector<RunRecord> runs;
+  {
+    ProgressLine line;
+    runs = run_experiment(plan, folder, workbench, line.sink());
+  }
+  tell(plan, runs, folder);
+  check_ends(plan, runs);
 }
 
 void check_command(const ExperimentOptions& options) {

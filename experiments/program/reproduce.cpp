@@ -73,7 +73,9 @@ class Reproduction {
     if (plan.has_handles())
       return {run_table(plan, edit_experiment(plan, out_ / item.name, workbench_), item.name)};
     ProgressLine line;
-    return {run_table(plan, run_experiment(plan, out_ / item.name, workbench_, line.sink()), item.name)};
+    const auto runs = run_experiment(plan, out_ / item.name, workbench_, line.sink());
+    check_ends(plan, runs);
+    return {run_table(plan, runs, item.name)};
   }
 
   std::vector<Table> compare(const Item& item, const ExperimentPlan& plan) {

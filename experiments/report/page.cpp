@@ -88,14 +88,16 @@ std::string method_table(const RegistrationResult& result) {
           ? "none used"
           : fmt::format("{} of {} agree", result.alignment.inliers, result.alignment.matches);
   return html_section(
-      "Method", facts_table({{"Solver", result.solver.name},
-                             {"Linear solver", result.solver.linear_solver},
-                             {"Last solve ended", result.solver.termination},
-                             {"Registration ended", result.termination},
-                             {"Feature matches", matches},
-                             {"Initial rotation", fmt::format("{:.2f} degrees", angle)},
-                             {"Initial translation",
-                              fmt::format("{:.1f} mm", result.alignment.motion.translation().norm())}}));
+      "Method",
+      facts_table(
+          {{"Solver", result.solver.name},
+           {"Linear solver", result.solver.linear_solver},
+           {"Last solve ended", result.solver.termination},
+           {"Registration ended",
+            result.reason.empty() ? result.termination : result.termination + ": " + result.reason},
+           {"Feature matches", matches},
+           {"Initial rotation", fmt::format("{:.2f} degrees", angle)},
+           {"Initial translation", fmt::format("{:.1f} mm", result.alignment.motion.translation().norm())}}));
 }
 
 std::string method_table(const EditResult& result) {

@@ -39,7 +39,7 @@ struct Bench {
 /// One solve of a fresh problem that is identical to the frozen one.
 SolverTrial solve_once(const Solver& solver, const Bench& bench) {
   SolverTrial trial;
-  Problem problem(bench.frozen.graph(), bench.frozen.terms(), bench.length_unit);
+  Problem problem(bench.frozen.graph(), bench.frozen.terms(), bench.length_unit, bench.frozen.transform());
   problem.unknowns() = Array<float>(bench.frozen.unknowns().host());
   trial.initial_energy = problem.energy();
   const auto start = Clock::now();
@@ -51,6 +51,7 @@ SolverTrial solve_once(const Solver& solver, const Bench& bench) {
   bench.device.finish();
   trial.solve_ms = milliseconds_since(bound_at);
   trial.summary = bound->summaries().front();
+  if (trial.summary.termination == "failed") throw NumericalError(trial.summary.failure);
   trial.final_energy = problem.energy();
   return trial;
 }

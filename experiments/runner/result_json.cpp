@@ -94,6 +94,9 @@ ordered_json environment_json(const DeviceInfo& device, const ExperimentPlan& pl
 ordered_json run_json(const RunRecord& run) {
   const RegistrationResult& result = run.result;
   return {{"name", run.name},
+          {"termination", result.termination},
+          {"reason", result.reason},
+          {"warnings", result.warnings},
           {"counts", counts_json(result.counts)},
           {"metrics", metrics_json(run.metrics)},
           {"initial", metrics_json(run.initial)},
@@ -115,6 +118,7 @@ ordered_json run_json(const EditRecord& run) {
                             {"residual_max", handle.max}};
   const auto all = result.all_handles();
   return {{"name", run.name},
+          {"warnings", result.warnings},
           {"counts", counts},
           {"metrics", {{"handle_residual_mean", all.mean}, {"handle_residual_max", all.max}}},
           {"initial", {{"handle_residual_mean", all.initial_mean}}},

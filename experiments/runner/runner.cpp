@@ -171,6 +171,13 @@ std::vector<EditRecord> edit_experiment(const ExperimentPlan& plan, const fs::pa
   });
 }
 
+void check_ends(const ExperimentPlan& plan, const std::vector<RunRecord>& runs) {
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (runs[i].result.termination == "failed")
+      throw NumericalError(fmt::format("{}: {}; the result is that of iteration {}", plan.runs[i].place,
+                                       runs[i].result.reason, runs[i].result.counts.outer_iterations));
+}
+
 Table run_table(const ExperimentPlan& plan, const std::vector<RunRecord>& runs,
                 const std::string& folder_name) {
   Table table;

@@ -33,6 +33,10 @@ std::vector<EditRecord> edit_experiment(const ExperimentPlan& plan, const std::f
 /// The handles of a run, by name.
 NamedHandles make_handles(const ExperimentPlan::Run& run, const Registry& registry);
 
+/// Throws NumericalError naming the place of the first run that failed; its result is that of the iteration
+/// before.
+void check_ends(const ExperimentPlan& plan, const std::vector<RunRecord>& runs);
+
 /// The key figures of each run. Links lead from `folder_name` (empty: from inside the folder).
 Table run_table(const ExperimentPlan& plan, const std::vector<RunRecord>& runs,
                 const std::string& folder_name = "");

@@ -1,5 +1,6 @@
 // The K + 1 nearest nodes of each point by brute force over the compact list of nodes, WIDTH nodes at a
-// time. `nodes` holds three rows (x, y, z) of `stride` values, padded with positions far away.
+// time. `nodes` holds three rows (x, y, z) of `stride` values, padded with positions far away. HAS_NEXT: are
+// there more than K nodes?
 
 #if WIDTH == 16
 typedef float16 Lanes;
@@ -52,7 +53,7 @@ kernel void influences(global const float* points, int point_count, global const
     }
   }
 
-  const float farthest = sqrt(distances[K]);
+  const float farthest = HAS_NEXT ? sqrt(distances[K]) : 2 * sqrt(distances[K - 1]);
   float weights[K];
   float sum = 0;
   for (int slot = 0; slot < K; ++slot) {

@@ -13,14 +13,12 @@
 namespace pliant {
 namespace {
 
-void check(std::size_t node_count, int k) {
+/// How many nodes move each point: `k`, or all there are.
+int checked_nearest(std::size_t node_count, int k) {
   if (k < 1 || k > max_influences)
     throw DataError(fmt::format("{} nodes per point asked for; 1 to {} are possible", k, max_influences));
-  if (node_count < static_cast<std::size_t>(k) + 1)
-    throw DataError(
-        fmt::format("the graph has {} node(s); weights over the {} nearest need at least {}: "
-                    "choose a finer graph or fewer nearest nodes",
-                    node_count, k, k + 1));
+  if (node_count == 0) throw DataError("the graph has no node");
+  return static_cast<int>(std::min(node_count, static_cast<std::size_t>(k)));
 }
 
 /// The points that each node moves: those of node j are points[first[j]] to before points[first[j + 1]].
@@ -53,8 +51,8 @@ NodeMembers members_of_nodes(const std::vector<int>& nodes, std::size_t k, std::
 }  // namespace
 
 Influences compute_influences(Device& device, const Array<float>& points,
-                              const std::vector<Eigen::Vector3f>& nodes, int k) {
-  check(nodes.size(), k);
+                              const std::vector<Eigen::Vector3f>& nodes, int nearest) {
+  const int k = checked_nearest(nodes.size(), nearest);
   const auto width = static_cast<std::size_t>(device.width());
   const auto stride = (nodes.size() + width - 1) / width * width;
   constexpr float far_away = 1e18F;  // its square is still finite
@@ -66,8 +64,9 @@ Influences compute_influences(Device& device, const Array<float>& points,
   const auto point_count = points.size() / 3;
   const auto entries = point_count * static_cast<std::size_t>(k);
   Influences influences{k, Array<int>(entries), Array<float>(entries)};
-  auto kernel =
-      device.kernel(embedded::framework_deformation_skinning_cl, "influences", fmt::format("-DK={}", k));
+  auto kernel = device.kernel(
+      embedded::framework_deformation_skinning_cl, "influences",
+      fmt::format("-DK={} -DHAS_NEXT={}", k, static_cast<int>(nodes.size() > static_cast<std::size_t>(k))));
   device.run("weights", kernel, point_count, 64, points.device(device), static_cast<cl_int>(point_count),
              node_rows.device(device), static_cast<cl_int>(stride), influences.nodes.write_device(device),
              influences.weights.write_device(device));
@@ -75,8 +74,8 @@ Influences compute_influences(Device& device, const Array<float>& points,
 }
 
 Influences compute_influences_reference(const std::vector<float>& points,
-                                        const std::vector<Eigen::Vector3f>& nodes, int k) {
-  check(nodes.size(), k);
+                                        const std::vector<Eigen::Vector3f>& nodes, int nearest) {
+  const int k = checked_nearest(nodes.size(), nearest);
   const auto neighbours = static_cast<std::size_t>(k);
   std::vector<int> found;
   std::vector<float> weights;
@@ -87,7 +86,8 @@ Influences compute_influences_reference(const std::vector<float>& points,
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
-    const float farthest = distance(order[neighbours]);
+    const float farthest =
+        nodes.size() > neighbours ? distance(order[neighbours]) : 2 * distance(order.back());
     std::vector<float> closeness(neighbours, 0);
     for (std::size_t slot = 0; slot < neighbours && farthest > 0; ++slot)
       closeness[slot] = std::pow(1 - distance(order[slot]) / farthest, 2.0F);

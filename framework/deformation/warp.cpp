@@ -1,6 +1,7 @@
 #include "framework/deformation/warp.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "framework/deformation/warp.cl.embed.h"
 
@@ -38,7 +39,9 @@ PointSet warp_reference(const PointSet& rest, const Influences& influences, cons
     Eigen::Matrix3f cofactors;
     cofactors << blended.col(1).cross(blended.col(2)), blended.col(2).cross(blended.col(0)),
         blended.col(0).cross(blended.col(1));
-    turned.col(i) = (cofactors * normals.col(i)).stableNormalized();
+    const Eigen::Vector3f direction = cofactors * normals.col(i);
+    const bool can_turn = std::isfinite(direction.squaredNorm());
+    turned.col(i) = can_turn ? direction.stableNormalized() : Eigen::Vector3f::Zero();
   }
   return {Array<float>(std::vector<float>(moved.data(), moved.data() + moved.size())),
           Array<float>(std::vector<float>(turned.data(), turned.data() + turned.size()))};

@@ -15,8 +15,9 @@ namespace pliant {
 inline constexpr int affine_size = 12;
 
 /// Deforms points and normals [Eq. 4.1] on the device: p' = sum_j w_j (R_j (p - g_j) + g_j + t_j); a
-/// normal turns with the cofactors of sum_j w_j R_j and stays of unit length ((0, 0, 0) stays so).
-/// `affine`: affine_size numbers per node; `node_points`: x y z per node; `moved` has the size of `rest`.
+/// normal turns with the cofactors of sum_j w_j R_j and stays of unit length ((0, 0, 0) stays so, and takes
+/// the place of what single precision cannot turn). `affine`: affine_size numbers per node; `node_points`: x
+/// y z per node; `moved` has the size of `rest`.
 void warp(Device& device, const PointSet& rest, const Influences& influences, const Array<float>& node_points,
           const Array<float>& affine, PointSet& moved);
 

@@ -39,6 +39,7 @@ DeviceInfo describe(const cl::Device& device) {
   info.is_gpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0;
   info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
   info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  info.most_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   return info;
 }
 
@@ -154,7 +155,8 @@ void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::si
 cl::Buffer Device::allocate(std::size_t bytes) const {
   // OpenCL has no empty buffers; one byte keeps empty arrays usable as kernel arguments.
   const std::size_t step = std::max<std::size_t>(std::bit_floor(bytes) / 8, 1);
-  const std::size_t size = (std::max<std::size_t>(bytes, 1) + step - 1) / step * step;  // close sizes share
+  const std::size_t shared = (std::max<std::size_t>(bytes, 1) + step - 1) / step * step;  // by close sizes
+  const std::size_t size = shared <= info_.most_bytes ? shared : bytes;
   // The queue is in order: what still uses a dropped buffer comes before what its next owner enqueues.
   for (auto [entry, end] = buffers_.equal_range(size); entry != end; ++entry)
     if (is_unused(entry->second)) return entry->second;
@@ -162,16 +164,24 @@ cl::Buffer Device::allocate(std::size_t bytes) const {
   return buffers_.emplace(size, make_buffer(size))->second;
 }
 
-cl::Buffer Device::make_buffer(std::size_t bytes) const {
+/// With `data`, a copy of it: OpenCL copies at once and keeps no pointer.
+cl::Buffer Device::make_buffer(std::size_t bytes, void* data) const {
+  // Asked first, because some drivers give out memory that is not there.
+  if (bytes > info_.most_bytes)
+    throw DeviceError(
+        fmt::format("a buffer of {} bytes is too large for {}: one may have {}, all together {}", bytes,
+                    info_.name, info_.most_bytes, info_.memory_bytes));
+  const cl_mem_flags flags = CL_MEM_READ_WRITE | (data != nullptr ? CL_MEM_COPY_HOST_PTR : 0);
   try {
-    return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
+    return cl::Buffer(context_, flags, bytes, data);
   } catch (const cl::Error&) {
     drop_unused_buffers();
   }
   try {
-    return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
+    return cl::Buffer(context_, flags, bytes, data);
   } catch (const cl::Error& error) {
-    fail(fmt::format("allocating {} bytes on {}", bytes, info_.name), error);
+    fail(fmt::format("allocating {} bytes on {}, of {} in all", bytes, info_.name, info_.memory_bytes),
+         error);
   }
 }
 
@@ -180,13 +190,7 @@ void Device::drop_unused_buffers() const {
 }
 
 cl::Buffer Device::upload(const void* data, std::size_t bytes) const {
-  if (bytes == 0) return allocate(0);
-  try {
-    // OpenCL copies at once and keeps no pointer to the data.
-    return cl::Buffer(context_, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, bytes, const_cast<void*>(data));
-  } catch (const cl::Error& error) {
-    fail(fmt::format("allocating {} bytes on {}", bytes, info_.name), error);
-  }
+  return bytes == 0 ? allocate(0) : make_buffer(bytes, const_cast<void*>(data));
 }
 
 void Device::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const {

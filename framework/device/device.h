@@ -24,6 +24,7 @@ struct DeviceInfo {
   bool is_gpu = false;
   int compute_units = 0;
   std::size_t memory_bytes = 0;
+  std::size_t most_bytes = 0;  ///< that one buffer may have
 };
 
 /// Time that each stage of a computation took on the device, in milliseconds.
@@ -64,7 +65,8 @@ class Device {
     enqueue(stage, kernel, global, local);
   }
 
-  /// A buffer of at least so many uninitialised bytes; DeviceError names the size when it does not fit.
+  /// A buffer of at least so many uninitialised bytes; DeviceError names the size, and what the device has,
+  /// when it does not fit.
   /// Buffers that all others have dropped are given out again: fresh pages cost more than most kernels.
   cl::Buffer allocate(std::size_t bytes) const;
 
@@ -109,7 +111,7 @@ class Device {
     cl::Program program;
     std::unordered_map<std::string, cl::Kernel> kernels;
   };
-  cl::Buffer make_buffer(std::size_t bytes) const;
+  cl::Buffer make_buffer(std::size_t bytes, void* data = nullptr) const;
   void drop_unused_buffers() const;
   Program& program_of(std::string_view source, const std::string& options);
   std::string all_options(const std::string& options) const;

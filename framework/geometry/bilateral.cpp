@@ -40,20 +40,18 @@ std::optional<DepthMap> BilateralFilter::filter(Device& device, const DepthMap& 
 
 DepthImage BilateralFilter::filter_reference(const DepthImage& depth) const {
   DepthImage filtered(depth.width(), depth.height());
-  const auto is_depth = [&](int u, int v) {
-    return depth.contains(u, v) && std::isfinite(depth(u, v)) && depth(u, v) > 0;
-  };
+  const auto has_depth = [&](int u, int v) { return depth.contains(u, v) && is_depth(depth(u, v)); };
   const auto gauss = [](double distance, double sigma) {
     return std::exp(-distance * distance / (2 * sigma * sigma));
   };
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) {
-      if (!is_depth(u, v)) continue;
+      if (!has_depth(u, v)) continue;
       double sum = 0;
       double weights = 0;
       for (int y = v - radius_; y <= v + radius_; ++y) {
         for (int x = u - radius_; x <= u + radius_; ++x) {
-          if (!is_depth(x, y)) continue;
+          if (!has_depth(x, y)) continue;
           const double weight = gauss(std::hypot(x - u, y - v), sigma_space_) *
                                 gauss(static_cast<double>(depth(x, y)) - depth(u, v), sigma_depth_);
           sum += weight * depth(x, y);

@@ -37,7 +37,6 @@ DepthMap::DepthMap(const RgbdFrame& frame) : DepthMap(frame.depth.width(), frame
   if (!frame.mask.empty() && (frame.mask.width() != width || frame.mask.height() != height))
     throw std::invalid_argument("mask and depth differ in size");
   std::vector<float> values(depth.size(), no_depth);
-  const auto is_depth = [](float value) { return value > 0 && value < no_depth; };
   for (int v = 0; v < height; ++v) {
     float* row = values.data() + offset(0, v);
     const float* given = frame.depth.data() + static_cast<std::size_t>(v) * width;

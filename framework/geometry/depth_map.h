@@ -12,11 +12,11 @@
 namespace pliant {
 
 /// A depth image for kernels over windows: rows of `stride` values, ringed by `halo` pixels without depth.
-/// A pixel has depth where that is finite and positive and the mask, if there is one, is not zero; elsewhere
+/// A pixel has depth where `is_depth` of it holds and the mask, if there is one, is not zero; elsewhere
 /// stands `no_depth`.
 struct DepthMap {
-  static constexpr int halo = 16;           ///< a whole vector, so that rows stay aligned
-  static constexpr float no_depth = 1e18F;  ///< further than any depth step; its square is finite
+  static constexpr int halo = 16;                    ///< a whole vector, so that rows stay aligned
+  static constexpr float no_depth = farthest_depth;  ///< further than any depth step
 
   int width = 0;
   int height = 0;

@@ -39,8 +39,14 @@ struct Rgb {
   bool operator==(const Rgb&) const = default;
 };
 
-using DepthImage = Image<float>;        ///< millimetres along the optical axis; 0 where there is none
+using DepthImage = Image<float>;        ///< millimetres along the optical axis; see is_depth
 using ColorImage = Image<Rgb>;          ///< aligned with the depth image
 using MaskImage = Image<std::uint8_t>;  ///< non-zero on the object
+
+/// Further than any camera sees, and near enough that squares of distances are finite.
+inline constexpr float farthest_depth = 1e18F;
+
+/// Whether a pixel of a depth image saw something: all other values (0, negative, NaN, infinite) are holes.
+inline bool is_depth(float depth) { return depth > 0 && depth < farthest_depth; }
 
 }  // namespace pliant

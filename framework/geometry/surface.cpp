@@ -26,7 +26,7 @@ PointImage make_points(const RgbdFrame& frame, const Camera& camera) {
     for (int u = 0; u < points.width(); ++u) {
       const float depth = frame.depth(u, v);
       const bool is_inside = frame.mask.empty() || frame.mask(u, v) != 0;
-      if (is_inside && std::isfinite(depth) && depth > 0) {
+      if (is_inside && is_depth(depth)) {
         points(u, v) = camera.unproject(u, v, depth).cast<float>();
       }
     }

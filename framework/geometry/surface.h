@@ -35,8 +35,8 @@ inline constexpr int fewest_plane_points = 4;
 /// on a line, and every plane through it fits. Single precision still resolves it.
 inline constexpr float flattest_spread = 1e-5F;
 
-/// Depth to points and normals, in plain C++ (depth_map.h does it on a device). Only pixels with a finite
-/// positive depth count, and only those inside the mask where there is one. A normal comes from the plane
+/// Depth to points and normals, in plain C++ (depth_map.h does it on a device). Only pixels of which
+/// `is_depth` holds count, and only those inside the mask where there is one. A normal comes from the plane
 /// fitted to the valid points of the (2 radius + 1)^2 window whose depth differs from the centre's by less
 /// than `depth_step` mm [thesis 3.1]; at least three neighbours are needed.
 SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius = default_normal_radius,

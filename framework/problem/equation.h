@@ -1,4 +1,4 @@
-// Makes one text compile as C++ (over double and ceres::Jet) and as OpenCL C (over float).
+// What an energy's equation.h is written with: one text for C++ and OpenCL C, see kernel_math.h.
 //
 // An equation.h defines two functions, NAME_residual and NAME_jacobian, each marked PLIANT_EQUATION:
 //
@@ -15,12 +15,4 @@
 // All of them in the common subset of both languages: arithmetic, local arrays, loops with constant bounds;
 // no allocation, no library calls but sqrt. What u and data hold is fixed by the stencil (energy.h). Terms
 // per node are run on the device over vectors of nodes: no branches there.
-#ifndef PLIANT_EQUATION
-#ifdef __OPENCL_VERSION__
-#define PLIANT_EQUATION static inline
-#else
-#define PLIANT_EQUATION \
-  template <class Real> \
-  inline
-#endif
-#endif
+#include "framework/device/kernel_math.h"

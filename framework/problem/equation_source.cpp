@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "framework/problem/loss.h.embed.h"
+#include "framework/problem/transform.cl.embed.h"
 
 namespace pliant {
 namespace {
@@ -22,18 +23,29 @@ std::string without_preprocessor_includes(std::string_view source) {
   return text;
 }
 
+std::string as_opencl(std::string_view source, const std::string& real) {
+  return "#undef PLIANT_EQUATION\n#define PLIANT_EQUATION static inline\n#undef Real\n#define Real " + real +
+         "\n" + without_preprocessor_includes(source);
+}
+
 }  // namespace
 
 std::string equation_source(const Energy& energy, const std::string& real) {
-  return "#undef PLIANT_EQUATION\n#define PLIANT_EQUATION static inline\n#undef Real\n#define Real " + real +
-         "\n" + without_preprocessor_includes(energy.equation.source);
+  return as_opencl(energy.equation.source, real);
+}
+
+std::string transform_source(const NodeTransform& transform, int stride) {
+  return fmt::format(
+      "{0}\n#define UNKNOWNS {1}\n#define STRIDE {2}\n#define RETRACT {3}_retract\n#define PULL_BACK "
+      "{3}_pull_back\n#define NEAREST {3}_nearest\n{4}",
+      as_opencl(transform.source, "float"), transform.unknowns, stride, transform.name,
+      embedded::framework_problem_transform_cl);
 }
 
 std::string loss_source(const Loss& loss) {
   return fmt::format(
-      "#undef PLIANT_EQUATION\n#define PLIANT_EQUATION static inline\n#undef Real\n#define Real float\n{0}\n"
-      "#define LOSS_VALUE(s) {1}_value(s, {2:.9e}f)\n#define LOSS_WEIGHT(s) {1}_weight(s, {2:.9e}f)\n",
-      without_preprocessor_includes(embedded::framework_problem_loss_h), loss.name, loss.scale);
+      "{0}\n#define LOSS_VALUE(s) {1}_value(s, {2:.9e}f)\n#define LOSS_WEIGHT(s) {1}_weight(s, {2:.9e}f)\n",
+      as_opencl(embedded::framework_problem_loss_h, "float"), loss.name, loss.scale);
 }
 
 }  // namespace pliant

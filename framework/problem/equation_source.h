@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "framework/deformation/node_transform.h"
 #include "framework/problem/energy.h"
 
 namespace pliant {
@@ -9,6 +10,10 @@ namespace pliant {
 /// The functions of an energy's equation.h as OpenCL C, over `real` ("float", or "float16" to run sixteen
 /// instances at once).
 std::string equation_source(const Energy& energy, const std::string& real);
+
+/// The functions of a transform that is not free as OpenCL C, and the kernels of transform.cl over steps of
+/// `stride` numbers a node.
+std::string transform_source(const NodeTransform& transform, int stride);
 
 /// The functions of loss.h as OpenCL C, and LOSS_VALUE(s), LOSS_WEIGHT(s) for one of them.
 std::string loss_source(const Loss& loss);

@@ -56,6 +56,14 @@ struct NormalEquations::TermKernels {
   cl::Buffer rows;             // what evaluate leaves for gathering
 };
 
+/// The normal equations along the steps of the problem's transform.
+struct NormalEquations::Projected {
+  cl::Buffer blocks;
+  cl::Buffer gradient;
+  cl::Kernel project_blocks;
+  cl::Kernel project_gradient;
+};
+
 NormalEquations::NormalEquations(Device& device, Problem& problem) : device_(&device), problem_(&problem) {
   for (const auto& term : problem.terms()) add_term(term);
   std::vector<const Incidences*> incidences;
@@ -78,7 +86,18 @@ NormalEquations::NormalEquations(Device& device, Problem& problem) : device_(&de
   blocks_ = device.allocate(sizeof(float) * 144 * block_rows_.size());
   gradient_ = device.allocate(sizeof(float) * problem.unknowns().size());
   energy_partials_ = device.allocate(sizeof(float) * static_cast<std::size_t>(energy_partial_count_));
+  if (problem.transform().is_free()) return;
+  const auto source = transform_source(problem.transform(), stride());
+  const auto width = static_cast<std::size_t>(stride());
+  projected_ = std::make_unique<Projected>(
+      Projected{device.allocate(sizeof(float) * width * width * block_rows_.size()),
+                device.allocate(sizeof(float) * width * problem.graph().nodes.size()),
+                device.kernel(source, "project_blocks"), device.kernel(source, "project_gradient")});
 }
+
+const cl::Buffer& NormalEquations::blocks() const { return projected_ ? projected_->blocks : blocks_; }
+
+const cl::Buffer& NormalEquations::gradient() const { return projected_ ? projected_->gradient : gradient_; }
 
 void NormalEquations::add_term(const Term& term) {
   auto& device = *device_;
@@ -133,6 +152,16 @@ void NormalEquations::assemble(const cl::Buffer& status) {
   device_->run("mv", clear, problem_->unknowns().size(), 256, status,
                static_cast<cl_int>(problem_->unknowns().size()), gradient_);
   for (auto& term : terms_) assemble_term(*term, status);
+  if (projected_) project(status);
+}
+
+void NormalEquations::project(const cl::Buffer& status) {
+  const auto& forms = problem_->unknowns().device(*device_);
+  device_->run("mm", projected_->project_blocks, block_rows_.size(), group_size, status, block_count(),
+               block_rows_.device(*device_), block_columns_.device(*device_), forms, blocks_,
+               projected_->blocks);
+  device_->run("mv", projected_->project_gradient, static_cast<std::size_t>(node_count()), group_size, status,
+               node_count(), forms, gradient_, projected_->gradient);
 }
 
 void NormalEquations::assemble_term(TermKernels& term, const cl::Buffer& status) {

@@ -7,9 +7,9 @@
 
 namespace pliant {
 
-/// J^T J and J^T r of a problem on the device, the matrix as the 12x12 blocks of its lower triangle that
-/// are not zero by structure. Everything is enqueued, nothing waits. Kernels do nothing while word 0 of
-/// `status` is not zero, so that a finished solve costs launches only.
+/// J^T J and J^T r of a problem on the device, by the numbers that its transform leaves free, the matrix as
+/// the blocks of its lower triangle that are not zero by structure. Everything is enqueued, nothing waits.
+/// Kernels do nothing while word 0 of `status` is not zero, so that a finished solve costs launches only.
 class NormalEquations {
  public:
   /// `problem` and `device` must outlive this; the problem's structure is fixed from here on.
@@ -26,22 +26,27 @@ class NormalEquations {
   const cl::Buffer& energy_partials() const { return energy_partials_; }
   int energy_partial_count() const { return energy_partial_count_; }
 
-  /// Row-major 12x12 blocks, one per pair; block rows and columns with row >= column, sorted.
-  const cl::Buffer& blocks() const { return blocks_; }
+  /// Places of a node in blocks, gradient and steps: its transform's unknowns (12 of `affine`, 6 of
+  /// `quaternion`) and zeros up to a multiple of four.
+  int stride() const { return (problem_->transform().unknowns + 3) / 4 * 4; }
+  /// Row-major blocks of stride x stride, one per pair; block rows and columns with row >= column, sorted.
+  const cl::Buffer& blocks() const;
   const Array<int>& block_rows() const { return block_rows_; }
   const Array<int>& block_columns() const { return block_columns_; }
   int block_count() const { return static_cast<int>(block_rows_.size()); }
-  /// affine_size numbers a node: half the gradient of E_tot.
-  const cl::Buffer& gradient() const { return gradient_; }
+  /// stride numbers a node: half the gradient of E_tot.
+  const cl::Buffer& gradient() const;
   int node_count() const { return problem_->node_count(); }
   Device& device() const { return *device_; }
 
  private:
   struct Kind;
   struct TermKernels;
+  struct Projected;
   void add_term(const Term& term);
   Kind& kind_of(const Constraints* constraints);
   void assemble_term(TermKernels& term, const cl::Buffer& status);
+  void project(const cl::Buffer& status);
 
   Device* device_;
   Problem* problem_;
@@ -49,8 +54,9 @@ class NormalEquations {
   Array<int> block_rows_;
   Array<int> block_columns_;
   Array<int> diagonal_;
-  cl::Buffer blocks_;
-  cl::Buffer gradient_;
+  cl::Buffer blocks_;                     // by affine forms, as energies see nodes
+  cl::Buffer gradient_;                   // likewise
+  std::unique_ptr<Projected> projected_;  // of a transform that is not free
   cl::Buffer energy_partials_;
   int energy_partial_count_ = 0;
   std::vector<std::unique_ptr<Kind>> kinds_;

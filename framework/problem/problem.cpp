@@ -74,8 +74,11 @@ void gather_constraint(const Problem& problem, const Constraints& constraints, s
 
 }  // namespace
 
-Problem::Problem(DeformationGraph graph, std::vector<Term> terms, double length_unit)
-    : graph_(std::move(graph)), terms_(std::move(terms)), length_unit_(length_unit) {
+Problem::Problem(DeformationGraph graph, std::vector<Term> terms, double length_unit, NodeTransform transform)
+    : graph_(std::move(graph)),
+      terms_(std::move(terms)),
+      length_unit_(length_unit),
+      transform_(std::move(transform)) {
   if (graph_.nodes.empty()) throw DataError("a problem needs at least one node");
   if (!(length_unit_ > 0) || !std::isfinite(length_unit_))
     throw DataError(fmt::format("a unit of length of {} mm", length_unit_));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "framework/deformation/graph.h"
+#include "framework/deformation/node_transform.h"
 #include "framework/deformation/skinning.h"
 #include "framework/device/array.h"
 #include "framework/problem/energy.h"
@@ -27,8 +28,9 @@ struct Term {
   std::shared_ptr<Constraints> constraints;  ///< for per_constraint energies, else null
 };
 
-/// Minimise E_tot [Eq. 4.6] over the affine forms of a deformation graph's nodes. It does not matter
-/// where the graph and the constraints come from: depth maps, meshes, handles moved by hand.
+/// Minimise E_tot [Eq. 4.6] over the affine forms of a deformation graph's nodes, those that `transform` lets
+/// them take. It does not matter where the graph and the constraints come from: depth maps, meshes, handles
+/// moved by hand.
 class Problem {
  public:
   /// Starts at the identity. `length_unit`: millimetres per unit of length in which the energies are
@@ -36,17 +38,22 @@ class Problem {
   /// Throws DataError for an edge or an influence that names a node that is not there or the same node
   /// twice, for sizes that do not fit together, and for weights and units that are not numbers to measure
   /// with.
-  Problem(DeformationGraph graph, std::vector<Term> terms, double length_unit = 1);
+  Problem(DeformationGraph graph, std::vector<Term> terms, double length_unit = 1,
+          NodeTransform transform = {});
 
   const DeformationGraph& graph() const { return graph_; }
   const std::vector<Term>& terms() const { return terms_; }
   int node_count() const { return static_cast<int>(graph_.nodes.size()); }
-  int unknown_count() const { return static_cast<int>(unknowns_.size()); }
+  const NodeTransform& transform() const { return transform_; }
+  /// Free numbers of all nodes together: 12 a node, or 6 of `quaternion` (7 numbers with one condition).
+  int unknown_count() const { return transform_.unknowns * node_count(); }
 
   /// x y z of each node, mm.
   const Array<float>& node_points() const { return node_points_; }
 
-  /// The affine forms, affine_size numbers a node: the start of a solve, and afterwards its solution.
+  /// The affine forms, affine_size numbers a node whatever the transform: the start of a solve, and
+  /// afterwards its solution. A solve that starts from forms which are not of the transform (carry_over
+  /// blends, a caller may write anything) begins at the nearest ones that are.
   Array<float>& unknowns() { return unknowns_; }
   const Array<float>& unknowns() const { return unknowns_; }
   void reset_to_identity();
@@ -62,6 +69,7 @@ class Problem {
   DeformationGraph graph_;
   std::vector<Term> terms_;
   double length_unit_;
+  NodeTransform transform_;
   Array<float> node_points_;
   Array<float> unknowns_;
 };

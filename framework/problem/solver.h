@@ -19,6 +19,7 @@ struct SolverSummary {
   int iterations = 0;
   int linear_iterations = 0;  ///< of an iterative linear solver, over all iterations
   std::string termination;    ///< "converged", "max_iterations", "no_decrease" or "failed"
+  std::string failure = {};   ///< why it "failed"; the unknowns are as they were then
   StageTimes time_ms;         ///< host stages; device stages are recorded by the Device
 
   /// A few lines for people.

@@ -1,7 +1,6 @@
 #include "framework/registration/align_automatic.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "framework/core/error.h"
@@ -12,8 +11,7 @@ namespace pliant {
 namespace {
 
 bool has_point(const RgbdFrame& frame, int u, int v) {
-  const float depth = frame.depth(u, v);
-  return std::isfinite(depth) && depth > 0 && (frame.mask.empty() || frame.mask(u, v) != 0);
+  return is_depth(frame.depth(u, v)) && (frame.mask.empty() || frame.mask(u, v) != 0);
 }
 
 double cut_distance(const FramePair& pair, const Eigen::Vector3d& point, double cut) {

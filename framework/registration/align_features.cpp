@@ -125,15 +125,13 @@ cv::Mat to_grey(const ColorImage& color) {
   return grey;
 }
 
-bool has_depth(float depth) { return std::isfinite(depth) && depth > 0; }
-
 /// Where features may lie: on the object and with depth to back-project them.
 cv::Mat usable_pixels(const RgbdFrame& frame) {
   cv::Mat usable(frame.depth.height(), frame.depth.width(), CV_8U);
   for (int v = 0; v < usable.rows; ++v) {
     for (int u = 0; u < usable.cols; ++u) {
       const bool inside = frame.mask.empty() || frame.mask(u, v) != 0;
-      usable.at<std::uint8_t>(v, u) = inside && has_depth(frame.depth(u, v)) ? 255 : 0;
+      usable.at<std::uint8_t>(v, u) = inside && is_depth(frame.depth(u, v)) ? 255 : 0;
     }
   }
   return usable;

@@ -21,6 +21,14 @@ Vector at(const Array<float>& vectors, std::size_t index) {
 
 }  // namespace
 
+bool any_in_force(Device& device, const Constraints& constraints) {
+  auto kernel = device.kernel(embedded::framework_registration_projection_cl, "find_in_force");
+  Array<int> found(1);
+  device.run("match", kernel, 1, 1, static_cast<cl_int>(constraints.size()),
+             constraints.confidence.device(device), found.write_device(device));
+  return found.host().front() != 0;
+}
+
 ProjectiveCorrespondence::ProjectiveCorrespondence(double max_distance, double max_angle, int search_radius)
     : max_distance_(static_cast<float>(max_distance)),
       least_cosine_(static_cast<float>(std::cos(max_angle))),
@@ -39,7 +47,7 @@ void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, cons
 
 bool ProjectiveCorrespondence::accepts(const Target& target, std::size_t pixel, const Eigen::Vector3f& point,
                                        const Eigen::Vector3f& normal) const {
-  const Vector target_normal = at(target.normals, pixel);
+  const Eigen::Vector3f target_normal = finite_or_none(target.normals, pixel);
   const bool has_normals = normal.squaredNorm() > 0 && target_normal.squaredNorm() > 0;
   return (point - at(target.points, pixel)).norm() <= max_distance_ &&
          (!has_normals || normal.dot(target_normal) >= least_cosine_);
@@ -58,7 +66,7 @@ std::optional<std::size_t> ProjectiveCorrespondence::match_point(const Target& t
       if (std::abs(u - centre.x()) > search_radius_ || std::abs(v - centre.y()) > search_radius_) continue;
       const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(target.camera.width) +
                          static_cast<std::size_t>(u);
-      if (!(at(target.points, pixel).z() > 0) || !accepts(target, pixel, point, normal)) continue;
+      if (!(finite_or_none(target.points, pixel).z() > 0) || !accepts(target, pixel, point, normal)) continue;
       const auto distance = [&](std::size_t offset) { return (point - at(target.points, offset)).norm(); };
       if (!best || distance(pixel) < distance(*best)) best = pixel;
     }
@@ -76,7 +84,7 @@ void ProjectiveCorrespondence::match_reference(const PointSet& moved, const Arra
     confidence[i] = pixel ? 1.0F : 0.0F;
     if (!pixel) continue;
     Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i) = at(target.points, *pixel) - at(constraints.points, i);
-    Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i + 3) = at(target.normals, *pixel);
+    Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i + 3) = finite_or_none(target.normals, *pixel);
   }
 }
 

@@ -20,6 +20,9 @@ class Correspondence {
                      Constraints& constraints) const = 0;
 };
 
+/// Whether any of the constraints has a confidence above 0. Waits for everything enqueued so far.
+bool any_in_force(Device& device, const Constraints& constraints);
+
 /// Adds `projective`.
 void register_correspondences(Registry& registry);
 

@@ -7,6 +7,7 @@
 
 #include "framework/core/error.h"
 #include "framework/deformation/warp.h"
+#include "framework/registration/registration.h"
 #include "framework/registration/stopwatch.h"
 
 namespace pliant {
@@ -45,7 +46,8 @@ std::shared_ptr<Constraints> make_constraints(const Surface& surface, const std:
 class Edit {
  public:
   Edit(const FramePair& pair, const NamedHandles& handles, const Method& method, Device& device)
-      : handles_(handles),
+      : name_(pair.name),
+        handles_(handles),
         method_(method),
         device_(device),
         source_(source_surface(pair)),
@@ -66,13 +68,15 @@ class Edit {
   EditResult solve() {
     const auto solver = method_.solver->bind(*problem_, device_);
     solver->solve();
+    const SolverSummary summary = solver->summaries().front();
+    if (summary.termination == "failed") throw NumericalError(name_ + ": the solver found no finite step");
     PointSet moved{Array<float>(rest_.points.size()), Array<float>(rest_.normals.size())};
     warp(device_, rest_, influences_, problem_->node_points(), problem_->unknowns(), moved);
     EditResult result;
     result.points = unflatten(moved.points);
     result.normals = unflatten(moved.normals);
     check_finite(result.points);
-    record(solver->summaries().front(), result);
+    record(summary, result);
     for (std::size_t i = 0; i < grips_.size(); ++i) result.handles.push_back(fit(i, result.points));
     result.source = std::move(source_);
     return result;
@@ -90,13 +94,13 @@ class Edit {
     for (const Energy& energy : method_.energies)
       terms.push_back({energy, energy.stencil == Stencil::per_constraint ? held : nullptr});
     problem_ = std::make_unique<Problem>(DeformationGraph{positions_, std::move(edges)}, std::move(terms),
-                                         method_.length_unit);
+                                         method_.length_unit, *method_.transform);
   }
 
-  static void check_finite(const std::vector<Eigen::Vector3f>& points) {
+  void check_finite(const std::vector<Eigen::Vector3f>& points) const {
     if (std::all_of(points.begin(), points.end(), [](const auto& point) { return point.allFinite(); }))
       return;
-    throw NumericalError("the bent surface is not finite");
+    throw NumericalError(name_ + ": the bent surface is not finite");
   }
 
   EditResult::HandleFit fit(std::size_t handle, const std::vector<Eigen::Vector3f>& moved) const {
@@ -126,6 +130,7 @@ class Edit {
     result.counts.solver_iterations = summary.iterations;
     result.energy = {summary.initial_energy, summary.final_energy, summary.energies};
     result.solver = {summary.solver, summary.linear_solver, summary.termination};
+    result.warnings = warnings_of(method_, result.counts);
     result.time_ms = times_;
     for (const auto& [stage, time] : summary.time_ms) result.time_ms[stage] += time;
     for (const auto& [stage, time] : device_.take_stage_times())
@@ -133,6 +138,7 @@ class Edit {
   }
 
   StageTimes times_;
+  const std::string& name_;
   const NamedHandles& handles_;
   const Method& method_;
   Device& device_;

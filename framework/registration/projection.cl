@@ -1,5 +1,13 @@
 // Projective association [thesis 4.2]: the target point at the pixel that a source point projects to.
 
+#define FARTHEST 1e18f  // farthest_depth of image.h
+
+// A vector of the target; one that is not finite, or so long that its square is not, counts as none.
+float3 load_finite(int pixel, global const float* vectors) {
+  const float3 v = vload3(pixel, vectors);
+  return all(fabs(v) < FARTHEST) ? v : (float3)(0);
+}
+
 // Offset of that pixel, or -1 when it lies outside or has no point. camera: fx, fy, cx, cy.
 int target_pixel(float3 p, float4 camera, int2 size, global const float* target_points) {
   if (!(p.z > 0)) return -1;
@@ -7,14 +15,14 @@ int target_pixel(float3 p, float4 camera, int2 size, global const float* target_
   const float v = round(camera.y * p.y / p.z + camera.w);
   if (!(u >= 0 && v >= 0 && u < size.x && v < size.y)) return -1;
   const int pixel = (int)v * size.x + (int)u;
-  return target_points[3 * pixel + 2] > 0 ? pixel : -1;
+  return load_finite(pixel, target_points).z > 0 ? pixel : -1;
 }
 
 // Whether target pixel `pixel` is near enough to the point p and faces alike. Without a normal on either side
 // distance alone decides.
 int is_acceptable(float3 p, float3 normal, int pixel, global const float* target_points,
                   global const float* target_normals, float max_distance, float least_cosine) {
-  const float3 target_normal = vload3(pixel, target_normals);
+  const float3 target_normal = load_finite(pixel, target_normals);
   const int has_normals = dot(normal, normal) > 0 && dot(target_normal, target_normal) > 0;
   return distance(p, vload3(pixel, target_points)) <= max_distance &&
          (!has_normals || dot(normal, target_normal) >= least_cosine);
@@ -34,7 +42,7 @@ int nearest_pixel(float3 p, float3 normal, int radius, float4 camera, int2 size,
   for (int v = low.y; v <= high.y; ++v)
     for (int u = low.x; u <= high.x; ++u) {
       const int pixel = v * size.x + u;
-      const float3 q = vload3(pixel, target_points);
+      const float3 q = load_finite(pixel, target_points);
       if (!(q.z > 0) || !(distance(p, q) < best_distance)) continue;
       if (!is_acceptable(p, normal, pixel, target_points, target_normals, max_distance, least_cosine))
         continue;
@@ -61,30 +69,38 @@ kernel void match(int count, global const int* selected, global const float* res
     pixel = nearest_pixel(p, normal, radius, camera, size, target_points, target_normals, max_distance,
                           least_cosine);
   vstore3(pixel >= 0 ? vload3(pixel, target_points) - vload3(i, rest) : (float3)(0), 2 * i, data);
-  vstore3(pixel >= 0 ? vload3(pixel, target_normals) : (float3)(0), 2 * i + 1, data);
+  vstore3(pixel >= 0 ? load_finite(pixel, target_normals) : (float3)(0), 2 * i + 1, data);
   confidence[i] = pixel >= 0 ? 1 : 0;
 }
 
 #define CHUNK 256
 
-// Per work-item the residuals of CHUNK points, each (-1: it meets no target point), and in order their sum
-// and how many there are.
+// One work-item, which stops at the first constraint in force.
+kernel void find_in_force(int count, global const float* confidence, global int* found) {
+  int i = 0;
+  while (i < count && !(confidence[i] > 0)) ++i;
+  *found = i < count;
+}
+
+// Per work-item the residuals of CHUNK points, each (-1: it meets no target point), and in order their sum,
+// how many there are, and how many points are lost: not finite, or so far away that squares are not.
 kernel void residuals(int count, global const float* moved, float4 camera, int2 size,
-                      global const float* target_points, global float* residual, global float2* partials) {
+                      global const float* target_points, global float* residual, global float4* partials) {
   const int first = get_global_id(0) * CHUNK;
   if (first >= count) return;
-  float2 sum = 0;
+  float4 sum = 0;
   for (int i = first; i < min(first + CHUNK, count); ++i) {
     const float3 p = vload3(i, moved);
     const int pixel = target_pixel(p, camera, size, target_points);
     residual[i] = pixel >= 0 ? distance(p, vload3(pixel, target_points)) : -1;
-    if (pixel >= 0) sum += (float2)(residual[i], 1);
+    if (pixel >= 0) sum += (float4)(residual[i], 1, 0, 0);
+    if (!all(fabs(p) < FARTHEST)) sum.z += 1;
   }
   partials[get_global_id(0)] = sum;
 }
 
-kernel void total_residual(int count, global const float2* partials, global float2* total) {
-  float2 sum = 0;
+kernel void total_residual(int count, global const float4* partials, global float4* total) {
+  float4 sum = 0;
   for (int i = 0; i < count; ++i) sum += partials[i];
   total[0] = sum;
 }

@@ -11,6 +11,11 @@ cl_float4 pinhole(const Camera& camera) {
 
 cl_int2 image_size(const Camera& camera) { return {{camera.width, camera.height}}; }
 
+Eigen::Vector3f finite_or_none(const Array<float>& vectors, std::size_t index) {
+  const Eigen::Map<const Eigen::Vector3f> vector(vectors.host().data() + 3 * index);
+  return (vector.array().abs() < farthest_depth).all() ? Eigen::Vector3f(vector) : Eigen::Vector3f::Zero();
+}
+
 std::optional<std::size_t> target_pixel_reference(const Target& target, const Eigen::Vector3f& point) {
   if (!(point.z() > 0)) return std::nullopt;
   const cl_float4 camera = pinhole(target.camera);
@@ -21,7 +26,7 @@ std::optional<std::size_t> target_pixel_reference(const Target& target, const Ei
   if (!is_inside) return std::nullopt;
   const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(target.camera.width) +
                      static_cast<std::size_t>(u);
-  if (!(target.points.host()[3 * pixel + 2] > 0)) return std::nullopt;
+  if (!(finite_or_none(target.points, pixel).z() > 0)) return std::nullopt;
   return pixel;
 }
 

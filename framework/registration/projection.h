@@ -11,6 +11,9 @@ namespace pliant {
 cl_float4 pinhole(const Camera& camera);
 cl_int2 image_size(const Camera& camera);
 
+/// A vector of the target for plain C++ references: (0, 0, 0) unless it is finite and so is its square.
+Eigen::Vector3f finite_or_none(const Array<float>& vectors, std::size_t index);
+
 /// Plain C++ reference of projective association [thesis 4.2]: row-major offset of the pixel that the point
 /// (mm, camera frame) projects to; none when that lies outside or has no target point.
 std::optional<std::size_t> target_pixel_reference(const Target& target, const Eigen::Vector3f& point);

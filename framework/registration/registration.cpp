@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -101,7 +102,7 @@ Model make_model(const Scene& scene, const Method& method, Device& device, const
       make_constraints(device, method, pick(scene.aligned.points, samples.points()), positions);
   auto problem = std::make_unique<Problem>(DeformationGraph{positions, std::move(edges)},
                                            make_terms(device, method, scene, positions, constraints),
-                                           method.length_unit);
+                                           method.length_unit, *method.transform);
   return {nodes.points(),         flatten(positions), std::move(influences), Array<int>(samples.points()),
           std::move(constraints), std::move(problem)};
 }
@@ -134,14 +135,10 @@ class Registration {
 
   void run(const ProgressSink& progress) {
     bind_solver();
-    residuals_ = {measure()};
+    measure_start();
     while (termination_.empty()) {
-      match();
-      solver_->solve();
-      update_source();
-      residuals_.push_back(measure());
-      ++iterations_;
-      decide();
+      iterate();
+      if (termination_.empty()) decide();
       report(progress);
     }
     collect_summaries();
@@ -153,8 +150,21 @@ class Registration {
  private:
   void bind_solver() { solver_ = method_.solver->bind(*model_.problem, device_); }
 
+  void end(const std::string& termination, const std::string& reason) {
+    termination_ = termination;
+    reason_ = reason;
+  }
+
+  /// A solve that failed has left the deformation as it was: the iterations before it are the result.
   void collect_summaries() {
     for (auto& summary : solver_->summaries()) summaries_.push_back(std::move(summary));
+    const auto last = summaries_.begin() + std::min<std::ptrdiff_t>(std::ssize(summaries_), iterations_);
+    const auto failed = std::find_if(summaries_.begin(), last, [](const SolverSummary& summary) {
+      return summary.termination == "failed" || !std::isfinite(summary.initial_energy + summary.final_energy);
+    });
+    if (failed == last) return;
+    iterations_ = static_cast<int>(failed - summaries_.begin());
+    end("failed", failed->failure.empty() ? "the energy is not finite" : failed->failure);
   }
 
   void update_source() {
@@ -173,16 +183,59 @@ class Registration {
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += unfiltered[i] - filtered[i];
   }
 
-  double measure() {
+  void measure_start() {
     const Residual residual = meter_.measure(moved_.points);
-    if (!std::isfinite(residual.mean))
-      throw NumericalError(fmt::format("{}: the residual is not finite after {} outer iterations",
-                                       scene_.pair.name, iterations_));
+    if (residual.lost > 0)
+      throw NumericalError(
+          fmt::format("{}: {} point(s) of the source are not finite where the alignment puts them",
+                      scene_.pair.name, residual.lost));
     if (residual.landed == 0)
-      throw DataError(fmt::format("{}: no point of the source projects onto a point of the target{}",
-                                  scene_.pair.name,
-                                  iterations_ == 0 ? "; an initial alignment may help" : ""));
-    return residual.mean;
+      throw DataError(
+          fmt::format("{}: no point of the source projects onto a point of the target; an initial "
+                      "alignment may help",
+                      scene_.pair.name));
+    residuals_ = {residual.mean};
+  }
+
+  /// Matches, minimises, updates the source and measures. What cannot be gone on with is taken back.
+  void iterate() {
+    const Array<float> before = model_.problem->unknowns();
+    try {
+      match();
+      solver_->solve();
+      update_source();
+      judge(meter_.measure(moved_.points));
+    } catch (const NumericalError& error) {
+      end("failed", error.what());
+    }
+    if (termination_.empty()) {
+      ++iterations_;
+      return;
+    }
+    model_.problem->unknowns() = before;
+    update_source();
+  }
+
+  /// Ends the loop when what an iteration came to is no result.
+  void judge(const Residual& residual) {
+    if (residual.lost > 0)
+      end("failed",
+          fmt::format("{} point(s) of the source were moved where nothing is finite", residual.lost));
+    else if (residual.landed == 0)
+      end("failed", "no point of the source projects onto a point of the target any more");
+    else if (!is_pulled())
+      end("no_constraints", "no constraint is in force: all matches are rejected, or all weights are zero");
+    else
+      residuals_.push_back(residual.mean);
+  }
+
+  /// Whether any energy asks a point to go anywhere.
+  bool is_pulled() {
+    const auto& terms = model_.problem->terms();
+    return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+      return term.constraints != nullptr && term.energy.weight > 0 &&
+             any_in_force(device_, *term.constraints);
+    });
   }
 
   /// Ends the loop, or adapts graph and constraints to the residual and lets it go on.
@@ -212,7 +265,7 @@ class Registration {
     if (!has_new_nodes && is_stuck())
       termination_ = "no_progress";
     else if (const bool has_new_samples = adapt_samples(); has_new_nodes || has_new_samples)
-      rebuild();
+      renew();
   }
 
   /// Refines and collapses [Alg. 2, 3]; whether there are other nodes.
@@ -225,9 +278,18 @@ class Registration {
     return timed(times_, "acs", [&] { return samples_->adapt(device_, meter_.per_point()); });
   }
 
+  /// Goes on with what adapting chose, if it chose anything.
+  void renew() {
+    collect_summaries();
+    if (nodes_->points().empty())
+      end("no_nodes", "the graph has lost all its nodes");
+    else if (samples_->points().empty())
+      end("no_constraints", "the sampler chose no point");
+    if (termination_.empty()) rebuild();
+  }
+
   /// Makes the model of the graph and constraints anew; the deformation so far is kept.
   void rebuild() {
-    collect_summaries();
     Model next = make_model(scene_, method_, device_, *nodes_, *samples_, times_);
     next.problem->unknowns() = carry_over({model_.nodes, model_.influences, model_.problem->unknowns()},
                                           next.nodes, scene_.aligned.points);
@@ -255,11 +317,17 @@ class Registration {
   std::unique_ptr<BoundSolver> solver_;
   std::vector<double> residuals_;  ///< mm, at the start and after each iteration
   int iterations_ = 0;
-  std::string termination_;
+  std::string termination_;  ///< empty while the loop goes on
+  std::string reason_;
   std::vector<SolverSummary> summaries_;
 };
 
-void record_solves(const std::vector<SolverSummary>& summaries, RegistrationResult& result) {
+/// One summary for each iteration, and perhaps some of solves that were taken back.
+void record_solves(std::vector<SolverSummary> summaries, RegistrationResult& result) {
+  if (!summaries.empty())
+    result.solver = {summaries.back().solver, summaries.back().linear_solver, summaries.back().termination};
+  summaries.resize(std::min(summaries.size(), static_cast<std::size_t>(result.counts.outer_iterations)));
+  if (summaries.empty()) return;
   result.energy.initial = summaries.front().initial_energy;
   result.energy.final = summaries.back().final_energy;
   for (const auto& summary : summaries) {
@@ -267,7 +335,6 @@ void record_solves(const std::vector<SolverSummary>& summaries, RegistrationResu
     result.counts.solver_iterations += summary.iterations;
     for (const auto& [stage, time] : summary.time_ms) result.time_ms[stage] += time;
   }
-  result.solver = {summaries.back().solver, summaries.back().linear_solver, summaries.back().termination};
 }
 
 /// Selecting ends with reading back what the device chose: the host's time of it holds the device's.
@@ -287,10 +354,12 @@ RegistrationResult Registration::take_result() {
   result.counts.unknowns = model_.problem->unknown_count();
   result.counts.outer_iterations = iterations_;
   result.termination = termination_;
+  result.reason = reason_;
+  result.warnings = warnings_of(method_, result.counts);
   result.time_ms = times_;
   for (const auto& [stage, time] : device_.take_stage_times())
     if (!is_waited_for(stage)) result.time_ms[stage] += time;
-  record_solves(summaries_, result);
+  record_solves(std::move(summaries_), result);
   result.source = std::move(scene_.source);
   result.aligned_points =
       scene_.unfiltered ? unflatten(scene_.unfiltered->points) : std::move(scene_.aligned.points);
@@ -299,6 +368,12 @@ RegistrationResult Registration::take_result() {
 }
 
 }  // namespace
+
+std::vector<std::string> warnings_of(const Method& method, const RegistrationResult::Counts& counts) {
+  if (counts.nodes > method.nearest_nodes) return {};
+  return {fmt::format("the graph has {} node(s): all of them move every point, though nearest_nodes is {}",
+                      counts.nodes, method.nearest_nodes)};
+}
 
 RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,
                                  std::uint64_t seed, const ProgressSink& progress) {

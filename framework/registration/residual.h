@@ -9,6 +9,7 @@ namespace pliant {
 struct Residual {
   double mean = 0;  ///< mm, over the points that land on a target point; 0 when none does
   int landed = 0;   ///< how many those are
+  int lost = 0;     ///< points that are not finite, or further away than farthest_depth
 };
 
 /// Measures residuals on the device; reading one back waits for everything enqueued so far.

@@ -25,7 +25,7 @@ struct RegistrationResult {
     int nodes = 0;
     int edges = 0;
     int constraints = 0;
-    int unknowns = 0;
+    int unknowns = 0;  ///< 12 a node of transform `affine`, 6 of `quaternion`
     int outer_iterations = 0;
     int solver_iterations = 0;
   } counts;
@@ -42,7 +42,12 @@ struct RegistrationResult {
     std::string termination;  ///< of the last solve
   } solver;
 
-  std::string termination;  ///< why the outer loop ended
+  /// Why the outer loop ended: "residual", "no_progress" or "max_iterations"; "no_constraints" or "no_nodes"
+  /// when nothing was left to go on with; "failed" when an iteration had no finite answer. After the last
+  /// three the result is that of the iteration before.
+  std::string termination;
+  std::string reason;                 ///< of one of those three, in words
+  std::vector<std::string> warnings;  ///< what was done otherwise than asked for
   double total_ms = 0;
   StageTimes time_ms;  ///< see docs/results.md
 };

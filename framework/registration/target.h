@@ -8,7 +8,7 @@
 namespace pliant {
 
 /// The surface to be reached, as images that live on the device: x y z per pixel, (0, 0, 0) where there is
-/// no point.
+/// no point. A point or normal that is not finite counts as none.
 struct Target {
   Camera camera;
   Array<float> points;   ///< mm, camera frame

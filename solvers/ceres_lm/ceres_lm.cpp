@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "framework/core/error.h"
 #include "framework/deformation/warp.h"
 #include "framework/problem/solver.h"
 
@@ -103,6 +102,35 @@ class ScaledLoss : public ceres::LossFunction {
   double factor_;
 };
 
+/// The affine forms of a transform that is not free, among all: Ceres steps as the device does.
+class TransformManifold : public ceres::Manifold {
+ public:
+  explicit TransformManifold(const NodeTransform& transform) : transform_(transform) {}
+
+  int AmbientSize() const override { return affine_size; }
+  int TangentSize() const override { return transform_.unknowns; }
+
+  bool Plus(const double* form, const double* step, double* moved) const override {
+    transform_.retract(form, step, moved);
+    return true;
+  }
+  bool PlusJacobian(const double* form, double* jacobian) const override {
+    for (std::size_t entry = 0; entry < affine_size; ++entry) {
+      std::array<double, affine_size> one{};
+      one[entry] = 1;
+      transform_.pull_back(form, one.data(), jacobian + entry * static_cast<std::size_t>(TangentSize()));
+    }
+    return true;
+  }
+
+  // A minimisation asks for no differences of forms; whoever did would be told that there are none.
+  bool Minus(const double*, const double*, double*) const override { return false; }
+  bool MinusJacobian(const double*, double*) const override { return false; }
+
+ private:
+  const NodeTransform& transform_;
+};
+
 struct Options {
   std::string linear_solver;
   int max_iterations;
@@ -118,23 +146,36 @@ class BoundCeres : public BoundSolver {
     const auto& start = problem_.unknowns().host();
     std::vector<double> unknowns(start.begin(), start.end());
     ceres::Problem ceres_problem;
-    for (int node = 0; node < problem_.node_count(); ++node)
-      ceres_problem.AddParameterBlock(unknowns.data() + affine_size * node, affine_size);
+    add_nodes(ceres_problem, unknowns);
     for (const auto& term : problem_.terms()) add_term(ceres_problem, term, unknowns);
 
     ceres::Solver::Summary summary;
     const auto energies = minimise(ceres_problem, summary);
-    if (!summary.IsSolutionUsable())
-      throw NumericalError("Ceres found no usable solution: " + summary.message);
+    record(summary, energies);
+    if (!summary.IsSolutionUsable()) return;
     auto& solution = problem_.unknowns().write_host();
     std::transform(unknowns.begin(), unknowns.end(), solution.begin(),
                    [](double x) { return static_cast<float>(x); });
-    record(summary, energies);
   }
 
   std::vector<SolverSummary> summaries() override { return summaries_; }
 
  private:
+  /// Takes each node to the nearest form of the transform.
+  void add_nodes(ceres::Problem& ceres_problem, std::vector<double>& unknowns) const {
+    const NodeTransform& transform = problem_.transform();
+    auto* manifold = transform.is_free() ? nullptr : new TransformManifold(transform);  // Ceres owns it
+    for (int node = 0; node < problem_.node_count(); ++node) {
+      double* form = unknowns.data() + affine_size * node;
+      if (manifold != nullptr) {
+        std::array<double, affine_size> nearest{};
+        transform.nearest(form, nearest.data());
+        std::copy(nearest.begin(), nearest.end(), form);
+      }
+      ceres_problem.AddParameterBlock(form, affine_size, manifold);
+    }
+  }
+
   void add_term(ceres::Problem& ceres_problem, const Term& term, std::vector<double>& unknowns) const {
     if (problem_.effective_weight(term) <= 0) return;
     for (std::size_t i = 0; i < instance_count(problem_, term); ++i) {
@@ -178,6 +219,10 @@ class BoundCeres : public BoundSolver {
     made.energies = energies;
     made.iterations = static_cast<int>(energies.size());
     made.termination = summary.termination_type == ceres::CONVERGENCE ? "converged" : "max_iterations";
+    if (!summary.IsSolutionUsable()) {
+      made.termination = "failed";
+      made.failure = "Ceres found no usable solution: " + summary.message;
+    }
     made.time_ms["jacobian"] = 1e3 * summary.jacobian_evaluation_time_in_seconds;
     made.time_ms["solver"] = 1e3 * summary.linear_solver_time_in_seconds;
     made.time_ms["energy"] = 1e3 * summary.residual_evaluation_time_in_seconds;

@@ -1,8 +1,9 @@
-// Conjugate gradients over the 12x12 blocks of J^T J, preconditioned by the inverses of the diagonal ones.
+// Conjugate gradients over the blocks of J^T J, 4 GROUPS numbers wide, preconditioned by the inverses of the
+// diagonal ones.
 //
-// A row of blocks holds both triangles. A block is nine float16, number 3 g + h for its rows 4 g .. 4 g + 3
-// and columns 4 h .. 4 h + 3, entry 4 d + c = block[4 g + c][4 h + d]: with four numbers x of a vector spread
-// as xxxxyyyyzzzzwwww the lanes hold products, to be added up over d once per row.
+// A row of blocks holds both triangles. A block is GROUPS x GROUPS float16, number GROUPS g + h for its rows
+// 4 g .. 4 g + 3 and columns 4 h .. 4 h + 3, entry 4 d + c = block[4 g + c][4 h + d]: with four numbers x of
+// a vector spread as xxxxyyyyzzzzwwww the lanes hold products, to be added up over d once per row.
 
 #if LANES == 1
 #define SYNC
@@ -12,6 +13,8 @@
 #define FOR_EACH(i, count) for (int i = get_local_id(0); i < (count); i += LANES)
 
 #define SPREAD(row) (row).xxxxyyyyzzzzwwww
+#define TILES (GROUPS * GROUPS)
+#define SIDE (4 * GROUPS)
 
 float4 fold(float16 v) { return (v.lo.lo + v.lo.hi) + (v.hi.lo + v.hi.hi); }
 
@@ -20,16 +23,17 @@ kernel void expand(global const int* status, int count, global const int* source
                    global float16* rows) {
   const int i = get_global_id(0);
   if (status[0] || i >= count) return;
-  global const float4* block = (global const float4*)(lower + 144 * (sources[i] / 2));
-  for (int g = 0; g < 3; ++g)
-    for (int h = 0; h < 3; ++h) {
+  global const float4* block = (global const float4*)(lower + 16 * TILES * (sources[i] / 2));
+  global float16* out = rows + TILES * i;
+  for (int g = 0; g < GROUPS; ++g)
+    for (int h = 0; h < GROUPS; ++h) {
       if (sources[i] % 2) {
-        rows[9 * i + 3 * g + h] = (float16)(block[3 * (4 * h) + g], block[3 * (4 * h + 1) + g],
-                                            block[3 * (4 * h + 2) + g], block[3 * (4 * h + 3) + g]);
+        out[GROUPS * g + h] = (float16)(block[GROUPS * (4 * h) + g], block[GROUPS * (4 * h + 1) + g],
+                                        block[GROUPS * (4 * h + 2) + g], block[GROUPS * (4 * h + 3) + g]);
       } else {
-        const float16 m = (float16)(block[3 * (4 * g) + h], block[3 * (4 * g + 1) + h],
-                                    block[3 * (4 * g + 2) + h], block[3 * (4 * g + 3) + h]);
-        rows[9 * i + 3 * g + h] = m.s048c159d26ae37bf;
+        const float16 m = (float16)(block[GROUPS * (4 * g) + h], block[GROUPS * (4 * g + 1) + h],
+                                    block[GROUPS * (4 * g + 2) + h], block[GROUPS * (4 * g + 3) + h]);
+        out[GROUPS * g + h] = m.s048c159d26ae37bf;
       }
     }
 }
@@ -42,30 +46,30 @@ kernel void invert_diagonals(global const int* status, int node_count, global co
   const int node = get_global_id(0);
   if (status[0] || node >= node_count) return;
   const float damping = as_float(status[3]);
-  global float16* block = rows + 9 * starts[node];
+  global float16* block = rows + TILES * starts[node];
   const float16 raise = (float16)(damping, 0, 0, 0, 0, damping, 0, 0, 0, 0, damping, 0, 0, 0, 0, damping);
-  for (int g = 0; g < 3; ++g) block[4 * g] += raise * block[4 * g];
+  for (int g = 0; g < GROUPS; ++g) block[(GROUPS + 1) * g] += raise * block[(GROUPS + 1) * g];
 
-  float a[12][16];
-  float least[12];
-  for (int g = 0; g < 3; ++g)
-    for (int h = 0; h < 3; ++h) {
-      const float16 m = block[3 * g + h];
+  float a[SIDE][16];
+  float least[SIDE];
+  for (int g = 0; g < GROUPS; ++g)
+    for (int h = 0; h < GROUPS; ++h) {
+      const float16 m = block[GROUPS * g + h];
       vstore4(m.lo.lo, g, a[4 * h]);  // symmetric: columns are rows
       vstore4(m.lo.hi, g, a[4 * h + 1]);
       vstore4(m.hi.lo, g, a[4 * h + 2]);
       vstore4(m.hi.hi, g, a[4 * h + 3]);
     }
-  for (int m = 0; m < 12; ++m) {
-    vstore4((float4)(0), 3, a[m]);
+  for (int m = 0; m < SIDE; ++m) {
+    for (int g = GROUPS; g < 4; ++g) vstore4((float4)(0), g, a[m]);
     least[m] = fmax(1e-5f * a[m][m], 1e-30f);
   }
-  for (int pivot = 0; pivot < 12; ++pivot) {
+  for (int pivot = 0; pivot < SIDE; ++pivot) {
     const float d = a[pivot][pivot];
     const float inverse = d > least[pivot] ? 1 / d : 0;
     a[pivot][pivot] = 1;
     const float16 row = inverse * vload16(0, a[pivot]);
-    for (int m = 0; m < 12; ++m) {
+    for (int m = 0; m < SIDE; ++m) {
       if (m == pivot) continue;
       const float factor = a[m][pivot];
       a[m][pivot] = 0;
@@ -73,12 +77,12 @@ kernel void invert_diagonals(global const int* status, int node_count, global co
     }
     vstore16(row, 0, a[pivot]);
     if (inverse == 0)
-      for (int m = 0; m < 12; ++m) a[m][pivot] = 0;
+      for (int m = 0; m < SIDE; ++m) a[m][pivot] = 0;
   }
-  for (int g = 0; g < 3; ++g)
-    for (int h = 0; h < 3; ++h)
-      inverses[9 * node + 3 * g + h] = (float16)(vload4(g, a[4 * h]), vload4(g, a[4 * h + 1]),
-                                                 vload4(g, a[4 * h + 2]), vload4(g, a[4 * h + 3]));
+  for (int g = 0; g < GROUPS; ++g)
+    for (int h = 0; h < GROUPS; ++h)
+      inverses[TILES * node + GROUPS * g + h] = (float16)(vload4(g, a[4 * h]), vload4(g, a[4 * h + 1]),
+                                                          vload4(g, a[4 * h + 2]), vload4(g, a[4 * h + 3]));
 }
 
 float total(float4 part, local float* scratch) {
@@ -100,13 +104,16 @@ float total(float4 part, local float* scratch) {
 
 // y += block * x, the sums over d still open.
 static inline void multiply(global const float16* block, global const float4* x, float16* y) {
-  const float16 x0 = SPREAD(x[0]), x1 = SPREAD(x[1]), x2 = SPREAD(x[2]);
-  y[0] += block[0] * x0 + block[1] * x1 + block[2] * x2;
-  y[1] += block[3] * x0 + block[4] * x1 + block[5] * x2;
-  y[2] += block[6] * x0 + block[7] * x1 + block[8] * x2;
+#pragma unroll
+  for (int g = 0; g < GROUPS; ++g) {
+    float16 sum = block[GROUPS * g] * SPREAD(x[0]);
+#pragma unroll
+    for (int h = 1; h < GROUPS; ++h) sum += block[GROUPS * g + h] * SPREAD(x[h]);
+    y[g] += sum;
+  }
 }
 
-// vectors: residual, direction, product, each three float4 a node. One work-group; adds its iterations to
+// vectors: residual, direction, product, each GROUPS float4 a node. One work-group; adds its iterations to
 // status[9] and sets status[1] when there is no solution.
 kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
     global int* status, int node_count, global const int* starts, global const int* columns,
@@ -115,33 +122,33 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
   local float scratch[LANES];
   if (status[0]) return;
   global float4* residual = vectors;
-  global float4* direction = residual + 3 * node_count;
-  global float4* product = direction + 3 * node_count;
+  global float4* direction = residual + GROUPS * node_count;
+  global float4* product = direction + GROUPS * node_count;
 
   float4 part = 0;
   FOR_EACH(node, node_count) {
-    float16 y[3] = {0, 0, 0};
-    for (int g = 3 * node; g < 3 * node + 3; ++g) residual[g] = -gradient[g];
-    multiply(inverses + 9 * node, residual + 3 * node, y);
-    for (int g = 0; g < 3; ++g) {
-      direction[3 * node + g] = fold(y[g]);
-      step[3 * node + g] = 0;
-      part += residual[3 * node + g] * direction[3 * node + g];
+    float16 y[GROUPS] = {0};
+    for (int g = GROUPS * node; g < GROUPS * node + GROUPS; ++g) residual[g] = -gradient[g];
+    multiply(inverses + TILES * node, residual + GROUPS * node, y);
+    for (int g = 0; g < GROUPS; ++g) {
+      direction[GROUPS * node + g] = fold(y[g]);
+      step[GROUPS * node + g] = 0;
+      part += residual[GROUPS * node + g] * direction[GROUPS * node + g];
     }
   }
   float rz = total(part, scratch);
   const float enough = RELATIVE * RELATIVE * rz;
   int iteration = 0, failed = !isfinite(rz);
-  while (rz > enough && !failed && iteration < 12 * node_count) {
+  while (rz > enough && !failed && iteration < SIDE * node_count) {
     SYNC;
     part = 0;
     FOR_EACH(node, node_count) {
-      float16 y[3] = {0, 0, 0};
+      float16 y[GROUPS] = {0};
       for (int block = starts[node]; block < starts[node + 1]; ++block)
-        multiply(rows + 9 * block, direction + 3 * columns[block], y);
-      for (int g = 0; g < 3; ++g) {
-        product[3 * node + g] = fold(y[g]);
-        part += product[3 * node + g] * direction[3 * node + g];
+        multiply(rows + TILES * block, direction + GROUPS * columns[block], y);
+      for (int g = 0; g < GROUPS; ++g) {
+        product[GROUPS * node + g] = fold(y[g]);
+        part += product[GROUPS * node + g] * direction[GROUPS * node + g];
       }
     }
     const float curvature = total(part, scratch);
@@ -153,22 +160,23 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
     const float alpha = rz / curvature;
     part = 0;
     FOR_EACH(node, node_count) {
-      float16 y[3] = {0, 0, 0};
-      for (int g = 3 * node; g < 3 * node + 3; ++g) {
+      float16 y[GROUPS] = {0};
+      for (int g = GROUPS * node; g < GROUPS * node + GROUPS; ++g) {
         step[g] += alpha * direction[g];
         residual[g] -= alpha * product[g];
       }
-      multiply(inverses + 9 * node, residual + 3 * node, y);
-      for (int g = 0; g < 3; ++g) {
-        product[3 * node + g] = fold(y[g]);
-        part += product[3 * node + g] * residual[3 * node + g];
+      multiply(inverses + TILES * node, residual + GROUPS * node, y);
+      for (int g = 0; g < GROUPS; ++g) {
+        product[GROUPS * node + g] = fold(y[g]);
+        part += product[GROUPS * node + g] * residual[GROUPS * node + g];
       }
     }
     const float next = total(part, scratch);
     const float beta = next / rz;
     rz = next;
     FOR_EACH(node, node_count)
-    for (int g = 3 * node; g < 3 * node + 3; ++g) direction[g] = product[g] + beta * direction[g];
+    for (int g = GROUPS * node; g < GROUPS * node + GROUPS; ++g)
+      direction[g] = product[g] + beta * direction[g];
   }
   if (get_local_id(0) == 0) {
     status[1] = failed;

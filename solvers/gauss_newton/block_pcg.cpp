@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "framework/deformation/warp.h"
 #include "solvers/gauss_newton/block_pcg.cl.embed.h"
 #include "solvers/gauss_newton/stepwise.h"
 
 namespace pliant {
 namespace {
-
-constexpr std::size_t block_bytes = sizeof(float) * affine_size * affine_size;
 
 class BlockPcgSteps : public StepSolver {
  public:
@@ -20,7 +17,8 @@ class BlockPcgSteps : public StepSolver {
         local_(device_.info().is_gpu ? 128 : 1) {
     lay_out();
     // How far the residual falls in the preconditioned norm: what is left is for the next step.
-    const auto options = fmt::format("-DLANES={} -DRELATIVE=1e-4f", local_);
+    const auto options =
+        fmt::format("-DLANES={} -DRELATIVE=1e-4f -DGROUPS={}", local_, equations.stride() / 4);
     const auto kernel = [&](const char* name) {
       return device_.kernel(embedded::solvers_gauss_newton_block_pcg_cl, name, options);
     };
@@ -28,10 +26,12 @@ class BlockPcgSteps : public StepSolver {
     invert_ = kernel("invert_diagonals");
     solve_ = kernel("solve");
     const auto nodes = static_cast<std::size_t>(node_count_);
+    const auto vector_bytes = sizeof(float) * static_cast<std::size_t>(equations.stride());
+    const auto block_bytes = vector_bytes * static_cast<std::size_t>(equations.stride());
     rows_ = device_.allocate(block_bytes * static_cast<std::size_t>(block_count_));
     inverses_ = device_.allocate(block_bytes * nodes);
-    vectors_ = device_.allocate(3 * affine_size * sizeof(float) * nodes);
-    step_ = device_.allocate(affine_size * sizeof(float) * nodes);
+    vectors_ = device_.allocate(3 * vector_bytes * nodes);
+    step_ = device_.allocate(vector_bytes * nodes);
   }
 
   void solve(const cl::Buffer& status) override {
@@ -101,7 +101,8 @@ class BlockPcg : public LinearSolver {
 }  // namespace
 
 void register_block_pcg(Registry& registry) {
-  registry.add<LinearSolver>("block_pcg", "Conjugate gradients over sparse 12x12 blocks, for any energy", {},
+  registry.add<LinearSolver>("block_pcg",
+                             "Conjugate gradients over sparse blocks, for any energy and transform", {},
                              [](const Parameters&, const Registry&) { return std::make_unique<BlockPcg>(); });
 }
 

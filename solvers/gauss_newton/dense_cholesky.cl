@@ -5,17 +5,17 @@
 #define BLOCK 64
 #define TILE 32
 
-// Places the 12x12 blocks; the diagonal is raised by lambda (status[3]). An unknown that nothing touches has
-// a row of zeros: a 1 on its diagonal keeps it where it is.
+// Places the STRIDE x STRIDE blocks; the diagonal is raised by lambda (status[3]). An unknown that nothing
+// touches has a row of zeros: a 1 on its diagonal keeps it where it is.
 kernel void scatter(global const int* status, int block_count, int n, global const int* rows,
                     global const int* columns, global const float* blocks, global float* A) {
   const int pair = get_global_id(0);
   if (status[0] || pair >= block_count) return;
   const float damping = as_float(status[3]);
-  for (int a = 0; a < 12; ++a)
-    for (int b = 0; b < 12; ++b) {
-      const int row = 12 * rows[pair] + a, column = 12 * columns[pair] + b;
-      const float value = blocks[144 * pair + 12 * a + b];
+  for (int a = 0; a < STRIDE; ++a)
+    for (int b = 0; b < STRIDE; ++b) {
+      const int row = STRIDE * rows[pair] + a, column = STRIDE * columns[pair] + b;
+      const float value = blocks[STRIDE * STRIDE * pair + STRIDE * a + b];
       A[row * n + column] = row != column ? value : value == 0 ? 1 : value * (1 + damping);
     }
 }

@@ -1,21 +1,35 @@
 #include "solvers/gauss_newton/dense_cholesky.h"
 
-#include "framework/deformation/warp.h"
+#include <fmt/format.h>
+
+#include "framework/core/error.h"
 #include "solvers/gauss_newton/dense_cholesky.cl.embed.h"
 #include "solvers/gauss_newton/stepwise.h"
 
 namespace pliant {
 namespace {
 
-constexpr int block = 64;  // BLOCK in dense_cholesky.cl
+constexpr int block = 64;             // BLOCK in dense_cholesky.cl
+constexpr int most_unknowns = 46336;  // whole blocks; the kernels count the elements of the matrix in an int
+
+/// Rounded up to whole blocks.
+int checked_size(int unknowns) {
+  const int n = (unknowns + block - 1) / block * block;
+  if (n > most_unknowns)
+    throw DeviceError(
+        fmt::format("dense_cholesky solves for {} unknowns at most, not for {}: their matrix has "
+                    "{} bytes; block_pcg and structured need none",
+                    most_unknowns, unknowns, sizeof(float) * static_cast<std::size_t>(n) * n));
+  return n;
+}
 
 class DenseCholeskySteps : public StepSolver {
  public:
   explicit DenseCholeskySteps(NormalEquations& equations)
       : equations_(equations),
         device_(equations.device()),
-        unknowns_(affine_size * equations.node_count()),
-        n_((unknowns_ + block - 1) / block * block),
+        unknowns_(equations.stride() * equations.node_count()),
+        n_(checked_size(unknowns_)),
         blocks_(n_ / block),
         matrix_(device_.allocate(sizeof(float) * size() * size())),
         tiles_(device_.allocate(sizeof(float) * block * size())),
@@ -34,7 +48,8 @@ class DenseCholeskySteps : public StepSolver {
  private:
   std::size_t size() const { return static_cast<std::size_t>(n_); }
   cl::Kernel kernel(const char* name) {
-    return device_.kernel(embedded::solvers_gauss_newton_dense_cholesky_cl, name);
+    return device_.kernel(embedded::solvers_gauss_newton_dense_cholesky_cl, name,
+                          fmt::format("-DSTRIDE={}", equations_.stride()));
   }
   // The inverse of diagonal block k inside the buffer of all of them.
   cl::Buffer at_block(cl::Buffer& buffer, int k) const {

@@ -3,7 +3,6 @@
 #include <array>
 #include <bit>
 
-#include "framework/core/error.h"
 #include "framework/problem/solver.h"
 #include "solvers/gauss_newton/linear_solver.h"
 
@@ -47,9 +46,9 @@ class BoundGaussNewton : public BoundSolver {
     for (std::size_t i = 0; i < static_cast<std::size_t>(summary.iterations); ++i)
       summary.energies.push_back(number(status_energies + i));
     constexpr std::array<const char*, 5> names{"", "converged", "max_iterations", "no_decrease", "failed"};
-    if (words[status_termination] == termination_not_finite)
-      throw NumericalError("the energy is not finite at the start of a solve");
     summary.termination = names.at(static_cast<std::size_t>(words[status_termination]));
+    if (words[status_termination] == termination_not_finite)
+      summary.failure = "the energy is not finite at the start of a solve";
     return summary;
   }
 

@@ -1,5 +1,6 @@
 #include "solvers/gauss_newton/stepwise.h"
 
+#include "framework/problem/equation_source.h"
 #include "solvers/gauss_newton/stepwise.cl.embed.h"
 
 namespace pliant {
@@ -19,6 +20,7 @@ class StepwiseCourse : public Course {
 
   void enqueue(const cl::Buffer& status) override {
     auto begin = kernel("begin");
+    if (!problem_.transform().is_free()) start_at_nearest(status);
     equations_.sum_energy(problem_.unknowns().device(device_), status);
     device_.run("energy", begin, 1, 1, status, equations_.energy_partials(),
                 equations_.energy_partial_count(), options_.damping);
@@ -32,16 +34,33 @@ class StepwiseCourse : public Course {
     return device_.kernel(embedded::solvers_gauss_newton_stepwise_cl, name);
   }
 
+  cl::Kernel transform_kernel(const char* name) {
+    return device_.kernel(transform_source(problem_.transform(), equations_.stride()), name);
+  }
+
+  void start_at_nearest(const cl::Buffer& status) {
+    auto take_nearest = transform_kernel("take_nearest");
+    const auto nodes = problem_.node_count();
+    device_.run("solver", take_nearest, static_cast<std::size_t>(nodes), 16, status, nodes,
+                problem_.unknowns().write_device(device_));
+  }
+
+  void try_step(const cl::Buffer& status) {
+    const bool adds = problem_.transform().is_free();
+    auto move = adds ? kernel("try_step") : transform_kernel("retract");
+    const auto count = adds ? static_cast<cl_int>(problem_.unknowns().size()) : problem_.node_count();
+    device_.run("solver", move, static_cast<std::size_t>(count), adds ? 64 : 16, status, count,
+                problem_.unknowns().device(device_), step_solver_->step(), trial_);
+  }
+
   void iterate(const cl::Buffer& status) {
-    auto try_step = kernel("try_step");
     auto decide = kernel("decide");
     auto accept = kernel("accept");
     auto end_iteration = kernel("end_iteration");
     const auto count = problem_.unknowns().size();
     equations_.assemble(status);
     step_solver_->solve(status);
-    device_.run("solver", try_step, count, 64, status, static_cast<cl_int>(count),
-                problem_.unknowns().device(device_), step_solver_->step(), trial_);
+    try_step(status);
     equations_.sum_energy(trial_, status);
     device_.run("energy", decide, 1, 1, status, equations_.energy_partials(),
                 equations_.energy_partial_count(), options_.max_iterations, options_.tolerance,

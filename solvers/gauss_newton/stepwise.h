@@ -15,12 +15,12 @@ class StepSolver {
   virtual ~StepSolver() = default;
   /// Enqueues the solution of the damped system into step(); sets status_bad_pivot when there is none.
   virtual void solve(const cl::Buffer& status) = 0;
-  /// affine_size floats a node.
+  /// As many floats a node as the equations' stride.
   virtual const cl::Buffer& step() const = 0;
 };
 using MakeStepSolver = std::function<std::unique_ptr<StepSolver>(NormalEquations&)>;
 
-/// Gauss-Newton over assembled 12x12 blocks, kernel by kernel: for any energy.
+/// Gauss-Newton over assembled blocks, kernel by kernel: for any energy and transform.
 std::unique_ptr<Course> make_stepwise_course(Problem& problem, Device& device, const CourseOptions& options,
                                              const std::string& linear_solver, const MakeStepSolver& make);
 

@@ -381,6 +381,8 @@ class Structured : public LinearSolver {
 }  // namespace
 
 std::string structured_obstacle(const Problem& problem) {
+  if (!problem.transform().is_free())
+    return fmt::format("transform {} couples the axes of a node", problem.transform().name);
   for (const auto& term : problem.terms())
     if (term.energy.stencil == Stencil::per_edge && !enters_matrix(term.energy))
       return fmt::format("energy {} couples the axes of neighbouring nodes", term.energy.equation.name);

@@ -66,7 +66,8 @@ class SkinningTest : public testing::Test {
     SCOPED_TRACE(testing::Message() << nodes.size() << " nodes, k = " << k);
     const auto found = on_device(points, nodes, k);
     const auto expected = compute_influences_reference(flat(points), nodes, k);
-    ASSERT_EQ(found.per_point, k);
+    ASSERT_EQ(found.per_point, std::min(k, static_cast<int>(nodes.size())));
+    ASSERT_EQ(found.per_point, expected.per_point);
     EXPECT_THAT(distances(found, points, nodes),
                 testing::Pointwise(testing::FloatNear(1e-3F), distances(expected, points, nodes)));
     EXPECT_THAT(found.weights.host(), testing::Pointwise(testing::FloatNear(2e-5F), expected.weights.host()));
@@ -88,25 +89,38 @@ TEST_F(SkinningTest, EveryNumberOfNodesAroundTheVectorWidthIsPadded) {
     expect_same_as_reference(points, random_points(count, 4), 4);
 }
 
-TEST_F(SkinningTest, TheFewestNodesAreOneMoreThanAskedFor) {
+TEST_F(SkinningTest, NoMoreNodesThanAskedForMoveEveryPointTogether) {
   const auto points = random_points(50, 5);
-  for (int k = 1; k <= max_influences; ++k) {
-    const auto count = static_cast<std::size_t>(k);
-    expect_same_as_reference(points, random_points(count + 1, 6), k);
-    EXPECT_THROW(on_device(points, random_points(count, 6), k), DataError);
-    EXPECT_THROW(compute_influences_reference(flat(points), random_points(count, 6), k), DataError);
-  }
-  EXPECT_THROW(on_device(points, random_points(30, 6), 0), DataError);
-  EXPECT_THROW(on_device(points, random_points(30, 6), max_influences + 1), DataError);
+  for (int k = 1; k <= max_influences; ++k)
+    for (const int count : {1, 2, 3, k - 1, k, k + 1})
+      if (count > 0) expect_same_as_reference(points, random_points(static_cast<std::size_t>(count), 6), k);
 }
 
-TEST_F(SkinningTest, TheErrorTellsHowManyNodesAreNeeded) {
-  try {
-    on_device(random_points(3, 1), random_points(4, 2), 4);
-    FAIL() << "four nodes cannot give the distance to a fifth";
-  } catch (const DataError& error) {
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("4 node(s)"), testing::HasSubstr("least 5")));
+TEST_F(SkinningTest, OneNodeAloneWeighsOne) {
+  const Points points{{0, 0, 0}, {1, 2, 3}, {5, 5, 5}};
+  for (const auto& found :
+       {on_device(points, {{5, 5, 5}}, 4), compute_influences_reference(flat(points), {{5, 5, 5}}, 4)}) {
+    EXPECT_EQ(found.per_point, 1);
+    EXPECT_THAT(found.nodes.host(), testing::ElementsAre(0, 0, 0));
+    EXPECT_THAT(found.weights.host(), testing::ElementsAre(1, 1, 1));
+    EXPECT_TRUE(find_edges(found, 1).empty());
   }
+}
+
+// Two nodes for four: at the nearer one closeness 1 and (1 - 1/2)^2, half-way the same for both.
+TEST_F(SkinningTest, WithoutANextNodeTwiceTheFarthestOneCounts) {
+  const auto found = on_device({{0, 0, 0}, {5, 0, 0}}, {{0, 0, 0}, {10, 0, 0}}, 4);
+  EXPECT_THAT(found.nodes.host(), testing::ElementsAre(0, 1, 0, 1));
+  EXPECT_THAT(found.weights.host(), testing::Pointwise(testing::FloatNear(1e-6F), {0.8F, 0.2F, 0.5F, 0.5F}));
+  EXPECT_THAT(find_edges(found, 2), testing::ElementsAre(Edge{0, 1}, Edge{1, 0}));
+}
+
+TEST_F(SkinningTest, WeightsNeedANodeAndAPossibleNumberOfThem) {
+  const auto points = random_points(3, 5);
+  EXPECT_THROW(on_device(points, random_points(30, 6), 0), DataError);
+  EXPECT_THROW(on_device(points, random_points(30, 6), max_influences + 1), DataError);
+  EXPECT_THROW(on_device(points, {}, 4), DataError);
+  EXPECT_THROW(compute_influences_reference(flat(points), {}, 4), DataError);
 }
 
 // Small whole numbers: every squared distance is exact, so that ties are ties on both sides.

@@ -36,6 +36,7 @@ TEST(Device, ListsWhatCanBeOpened) {
     EXPECT_THAT(info.version, testing::StartsWith("OpenCL "));
     EXPECT_GT(info.compute_units, 0);
     EXPECT_GT(info.memory_bytes, 0U);
+    EXPECT_GT(info.most_bytes, 0U);
     EXPECT_EQ(Device(info.name).info().is_gpu, info.is_gpu);
   }
   for (std::size_t i = 1; i < devices.size(); ++i)
@@ -132,12 +133,19 @@ TEST(Device, MeasuresStagesOnlyWhenAsked) {
   EXPECT_TRUE(device.take_stage_times().empty());
 }
 
-TEST(Device, AnAllocationThatDoesNotFitNamesItsSize) {
+TEST(Device, AnAllocationThatDoesNotFitNamesItsSizeAndTheDevices) {
   Device device;
-  const std::size_t bytes = std::size_t{1} << 50;
-  const auto message = device_error([&] { device.allocate(bytes); });
-  EXPECT_THAT(message, testing::HasSubstr("1125899906842624 bytes"));
-  EXPECT_THAT(message, testing::HasSubstr(device.info().name));
+  const auto& info = device.info();
+  for (const std::size_t bytes : {std::size_t{1} << 50, info.most_bytes + 1}) {
+    for (const auto& message : {device_error([&] { device.allocate(bytes); }),
+                                device_error([&] { device.upload(&bytes, bytes); })}) {
+      EXPECT_THAT(message, testing::HasSubstr("of " + std::to_string(bytes) + " bytes"));
+      EXPECT_THAT(message, testing::HasSubstr(info.name));
+      EXPECT_THAT(message, testing::HasSubstr("one may have " + std::to_string(info.most_bytes)));
+      EXPECT_THAT(message, testing::HasSubstr("all together " + std::to_string(info.memory_bytes)));
+    }
+  }
+  EXPECT_NO_THROW(device.allocate(16)) << "a failure leaves the device usable";
 }
 
 TEST(Device, TransfersBeyondABufferAreRefused) {

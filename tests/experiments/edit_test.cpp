@@ -62,8 +62,8 @@ TEST_F(EditTest, ResultTellsOfHandlesAndOfNothingThatNeedsATarget) {
   const ordered_json result = edit(plan(two_handles));
   EXPECT_EQ(result["schema"], 1);
   const ordered_json& run = result["runs"][0];
-  EXPECT_THAT(keys(run),
-              ElementsAre("name", "counts", "metrics", "initial", "handles", "energy", "time_ms", "solver"));
+  EXPECT_THAT(keys(run), ElementsAre("name", "warnings", "counts", "metrics", "initial", "handles", "energy",
+                                     "time_ms", "solver"));
   EXPECT_THAT(keys(run["counts"]),
               ElementsAre("source_points", "nodes", "edges", "constraints", "unknowns", "solver_iterations"));
   EXPECT_THAT(keys(run["metrics"]), ElementsAre("handle_residual_mean", "handle_residual_max"));
@@ -126,8 +126,8 @@ TEST_F(EditTest, HandlesThatStayLeaveTheSurfaceAsItIs) {
 }
 
 TEST_F(EditTest, DeviceAndCeresFindTheSameMinimum) {
-  for (const std::string more :
-       {"", "graph: {type: quadtree}\n", "energies: {point_to_plane: {weight: 10}}\n"}) {
+  for (const std::string more : {"", "graph: {type: quadtree}\n", "transform: quaternion\n",
+                                 "energies: {point_to_plane: {weight: 10}}\n"}) {
     SCOPED_TRACE(more);
     edit(plan(two_handles + more, {"solver.tolerance=1.0e-7"}));
     const double device = records_.at(0).result.energy.final;
@@ -186,6 +186,15 @@ TEST_F(EditTest, EnergiesThatHandlesCannotServeAreErrors) {
             one);
   const ExperimentPlan bare = plan_experiment({file("bare.yaml"), {}, {}, {}}, registry_);
   EXPECT_THROW(check_experiment(bare, workbench_), ConfigError);
+}
+
+TEST_F(EditTest, ASolveThatFailsIsAnError) {
+  try {
+    edit(plan(two_handles + "energies: {constraint: {weight: 1.0e+300}}\n"));
+    FAIL() << "there is no finite answer";
+  } catch (const NumericalError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("small.yaml: synthetic sheet"), HasSubstr("finite")));
+  }
 }
 
 TEST_F(EditTest, ARunCannotHaveHandlesAlone) {

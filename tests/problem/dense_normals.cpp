@@ -44,7 +44,7 @@ void add_instance(const Problem& problem, const Term& term, std::size_t instance
   term.energy.equation.jacobian(u.data(), data.data(), outer.data());
 
   const auto nodes = coupled_nodes(problem, term, instance);
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(term.energy.residuals, problem.unknown_count());
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(term.energy.residuals, affine_size * problem.node_count());
   for (std::size_t slot = 0; slot < nodes.size(); ++slot)
     J.middleCols(affine_size * nodes[slot], affine_size) +=
         outer * inner_derivative(problem, term, instance, static_cast<int>(slot));
@@ -58,6 +58,20 @@ void add_instance(const Problem& problem, const Term& term, std::size_t instance
   }
 }
 
+/// The derivative of all affine forms by the steps of their nodes.
+Eigen::MatrixXd tangents(const Problem& problem, const double* forms) {
+  const int width = problem.transform().unknowns;
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(affine_size * problem.node_count(), problem.unknown_count());
+  for (int node = 0; node < problem.node_count(); ++node)
+    for (int entry = 0; entry < affine_size; ++entry) {
+      const Eigen::VectorXd one = Eigen::VectorXd::Unit(affine_size, entry);
+      Eigen::VectorXd row(width);
+      problem.transform().pull_back(forms + affine_size * node, one.data(), row.data());
+      T.block(affine_size * node + entry, width * node, 1, width) = row.transpose();
+    }
+  return T;
+}
+
 std::vector<float> read(Device& device, const cl::Buffer& buffer, std::size_t count) {
   std::vector<float> values(count);
   device.read(buffer, values.data(), sizeof(float) * count);
@@ -67,32 +81,35 @@ std::vector<float> read(Device& device, const cl::Buffer& buffer, std::size_t co
 }  // namespace
 
 DenseNormals dense_normals(const Problem& problem) {
-  const auto size = problem.unknown_count();
+  const auto size = affine_size * problem.node_count();
   DenseNormals normals{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
   const auto& values = problem.unknowns().host();
   const std::vector<double> unknowns(values.begin(), values.end());
   for (const auto& term : problem.terms())
     for (std::size_t i = 0; i < instance_count(problem, term); ++i)
       add_instance(problem, term, i, unknowns.data(), normals);
-  return normals;
+  if (problem.transform().is_free()) return normals;
+  const Eigen::MatrixXd T = tangents(problem, unknowns.data());
+  return {T.transpose() * normals.matrix * T, T.transpose() * normals.gradient};
 }
 
 DenseNormals device_normals(NormalEquations& equations) {
   auto& device = equations.device();
   equations.assemble(make_status(device));
-  const auto size = affine_size * equations.node_count();
-  const auto blocks = read(device, equations.blocks(), 144 * equations.block_rows().size());
+  const int width = equations.stride();
+  const auto size = width * equations.node_count();
+  const auto entries = static_cast<std::size_t>(width * width);
+  const auto blocks = read(device, equations.blocks(), entries * equations.block_rows().size());
   const auto gradient = read(device, equations.gradient(), static_cast<std::size_t>(size));
   DenseNormals normals{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
   for (std::size_t pair = 0; pair < equations.block_rows().size(); ++pair) {
-    const int row = affine_size * equations.block_rows().host()[pair];
-    const int column = affine_size * equations.block_columns().host()[pair];
+    const int row = width * equations.block_rows().host()[pair];
+    const int column = width * equations.block_columns().host()[pair];
+    using Block = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::MatrixXd block =
-        Eigen::Map<const Eigen::Matrix<float, affine_size, affine_size, Eigen::RowMajor>>(blocks.data() +
-                                                                                          144 * pair)
-            .cast<double>();
-    normals.matrix.block(column, row, affine_size, affine_size) = block.transpose();
-    normals.matrix.block(row, column, affine_size, affine_size) = block;
+        Eigen::Map<const Block>(blocks.data() + entries * pair, width, width).cast<double>();
+    normals.matrix.block(column, row, width, width) = block.transpose();
+    normals.matrix.block(row, column, width, width) = block;
   }
   for (int i = 0; i < size; ++i) normals.gradient[i] = gradient[static_cast<std::size_t>(i)];
   return normals;

@@ -13,10 +13,12 @@ struct DenseNormals {
   Eigen::VectorXd gradient;
 };
 
-/// Built in double on the host, instance by instance from the equations.
+/// Built in double on the host, instance by instance from the equations, then along the steps of the
+/// transform.
 DenseNormals dense_normals(const Problem& problem);
 
-/// What the device assembles at the problem's unknowns, the blocks put in their places.
+/// What the device assembles at the problem's unknowns, the blocks put in their places (stride numbers a
+/// node).
 DenseNormals device_normals(NormalEquations& equations);
 
 /// The sum of the partial energies of the device at the problem's unknowns.

@@ -57,6 +57,35 @@ TEST_F(NormalEquationsTest, AreThoseOfTheReferenceOnRandomProblems) {
   }
 }
 
+TEST_F(NormalEquationsTest, FollowTheStepsOfRigidNodes) {
+  const auto quaternion = quaternion_transform();
+  auto problem =
+      make_sheet_problem({.nodes = 23, .constraints = 180, .seed = 5, .transform = quaternion}, energies_);
+  turn_nodes(problem, 1.5, 20, 5);
+  NormalEquations equations(device_, problem);
+  ASSERT_EQ(equations.stride(), 8);
+  const auto expected = dense_normals(problem);
+  const auto found = device_normals(equations);
+  const Eigen::VectorXd size = expected.matrix.diagonal().cwiseSqrt();
+  const double root = std::sqrt(problem.energy());
+  for (int row = 0; row < 8 * 23; ++row) {
+    const bool is_padding = row % 8 >= 6;
+    const int i = row / 8 * 6 + row % 8;
+    if (is_padding)
+      EXPECT_EQ(found.gradient[row], 0);
+    else
+      EXPECT_NEAR(found.gradient[row], expected.gradient[i], 1e-5 * size[i] * root) << row;
+    for (int column = 0; column < 8 * 23; ++column) {
+      const int j = column / 8 * 6 + column % 8;
+      if (is_padding || column % 8 >= 6)
+        ASSERT_EQ(found.matrix(row, column), 0) << row << " " << column;
+      else
+        ASSERT_NEAR(found.matrix(row, column), expected.matrix(i, j), 1e-5 * size[i] * size[j])
+            << row << " " << column;
+    }
+  }
+}
+
 TEST_F(NormalEquationsTest, SeveralTermsOfAStencilAddUp) {
   const Sheet sheet{.nodes = 12, .constraints = 90};
   auto graph = make_sheet_graph(sheet);

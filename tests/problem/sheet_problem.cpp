@@ -98,7 +98,7 @@ std::vector<Term> make_terms(const std::vector<Energy>& energies,
 Problem make_sheet_problem(const Sheet& sheet, const std::vector<Energy>& energies) {
   auto graph = make_sheet_graph(sheet);
   auto terms = make_terms(energies, make_sheet_constraints(sheet, graph));
-  return Problem(std::move(graph), std::move(terms), sheet.length_unit);
+  return Problem(std::move(graph), std::move(terms), sheet.length_unit, sheet.transform);
 }
 
 void randomise_unknowns(Problem& problem, double matrix, double translation, unsigned seed) {
@@ -107,6 +107,32 @@ void randomise_unknowns(Problem& problem, double matrix, double translation, uns
   auto& unknowns = problem.unknowns().write_host();
   for (std::size_t i = 0; i < unknowns.size(); ++i)
     unknowns[i] = static_cast<float>(normal(generator) * (i % affine_size < 9 ? matrix : translation));
+}
+
+void turn_nodes(Problem& problem, double radians, double translation, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  auto& unknowns = problem.unknowns().write_host();
+  for (std::size_t node = 0; node < problem.graph().nodes.size(); ++node) {
+    const Eigen::Vector3d axis(normal(generator), normal(generator), normal(generator));
+    const Eigen::AngleAxisd turn(radians * normal(generator), axis.normalized());
+    const Eigen::Matrix3d deviation = turn.toRotationMatrix() - Eigen::Matrix3d::Identity();
+    Eigen::Map<Eigen::Matrix<float, 3, 4>> form(unknowns.data() + affine_size * node);
+    form.leftCols<3>() = deviation.cast<float>();
+    for (int axis_index = 0; axis_index < 3; ++axis_index)
+      form(axis_index, 3) = static_cast<float>(translation * normal(generator));
+  }
+}
+
+double distance_from_rotations(const std::vector<float>& forms) {
+  double worst = 0;
+  for (std::size_t at = 0; at < forms.size(); at += affine_size) {
+    const Eigen::Matrix3d R =
+        Eigen::Map<const Eigen::Matrix3f>(forms.data() + at).cast<double>() + Eigen::Matrix3d::Identity();
+    worst = std::max(
+        {worst, (R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), std::abs(R.determinant() - 1)});
+  }
+  return worst;
 }
 
 }  // namespace pliant::test

@@ -16,6 +16,7 @@ struct Sheet {
   double relief = 15;  ///< mm, height of the sheet's own waves at rest
   double length_unit = 1;
   unsigned seed = 1;
+  NodeTransform transform = {};
 };
 
 /// Nodes, and Sumner's edges over many points of the sheet.
@@ -35,5 +36,11 @@ Problem make_sheet_problem(const Sheet& sheet, const std::vector<Energy>& energi
 
 /// Unknowns around the identity: matrices deviate by `matrix`, translations by `translation` mm (one sigma).
 void randomise_unknowns(Problem& problem, double matrix, double translation, unsigned seed);
+
+/// Unknowns that turn each node about some axis by an angle of `radians` (one sigma).
+void turn_nodes(Problem& problem, double radians, double translation, unsigned seed);
+
+/// How far the matrices of affine forms are from rotations: the largest |R^T R - I| and |det R - 1|.
+double distance_from_rotations(const std::vector<float>& forms);
 
 }  // namespace pliant::test

@@ -102,12 +102,16 @@ TEST_F(BadInputTest, NoValidDepth) {
   expect_refusal(3, file("a.png"), "no valid depth");
 }
 
-TEST_F(BadInputTest, FewerPointsThanNeighbours) {
+TEST_F(BadInputTest, FewerPointsThanNeighboursAreRegistered) {
   DepthImage depth(width, height, 0);
   depth(80, 60) = 800;
   depth(81, 60) = 800;
   write_depth(file("a.png"), depth);
-  expect_refusal(3, "pair.yaml", "the graph has 2 node(s)", " --set graph.spacing=1 --set sampler.step=1");
+  const ProgramRun run = call("run pair.yaml --out out --set graph.spacing=1 --set sampler.step=1");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const char* warning = "the graph has 2 node(s): all of them move every point";
+  EXPECT_THAT(run.out, HasSubstr(std::string("warning: ") + warning));
+  EXPECT_THAT(text_of("out/result.json"), HasSubstr(warning));
 }
 
 TEST_F(BadInputTest, NanInGroundTruth) {
@@ -157,12 +161,23 @@ TEST_F(BadInputTest, NoSuchDevice) {
   expect_refusal(4, "no OpenCL device", "'abacus'", " --set device=abacus");
 }
 
+TEST_F(BadInputTest, MoreThanTheDeviceHas) {
+  expect_refusal(4, "dense_cholesky", "bytes",
+                 " --set graph.spacing=1 --set solver.linear_solver=dense_cholesky");
+}
+
+// The result before the failure is written, and the exit code tells of the failure.
 TEST_F(BadInputTest, NoFiniteAnswer) {
   const ProgramRun run = call("run pair.yaml --out out --set energies.constraint.weight=1.0e+300");
   EXPECT_EQ(run.exit_code, 5);
   ASSERT_FALSE(run.errors().empty());
-  EXPECT_THAT(run.errors().back(), AllOf(HasSubstr("error: pair.yaml: "), HasSubstr("not finite")));
-  EXPECT_FALSE(std::filesystem::exists(file("out/result.json")));
+  EXPECT_THAT(run.errors().back(), AllOf(HasSubstr("error: pair.yaml: "), HasSubstr("not finite"),
+                                         HasSubstr("the result is that of iteration 0")));
+  EXPECT_THAT(run.out, HasSubstr("failed (the energy is not finite"));
+  const std::string json = text_of("out/result.json");
+  EXPECT_THAT(json, AllOf(HasSubstr("\"termination\": \"failed\""), HasSubstr("\"reason\": \"the energy")));
+  EXPECT_EQ(json.find("null"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(file("out/registered.ply")));
 }
 
 }  // namespace

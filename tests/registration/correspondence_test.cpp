@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <random>
 
 #include "framework/registration/projective.h"
@@ -130,6 +132,82 @@ TEST(ResidualMeter, AgreesWithItsReference) {
   EXPECT_NEAR(measured.mean, expected.mean, 1e-4 * expected.mean);
   for (std::size_t i = 0; i < per_point.size(); ++i)
     ASSERT_NEAR(meter.per_point().host()[i], per_point[i], 1e-3) << "point " << i;
+}
+
+/// What is not finite in a target that was made by hand.
+void spoil(Target& target, std::mt19937& random) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (auto* vectors : {&target.points, &target.normals})
+    for (float& value : vectors->write_host())
+      if (random() % 10 == 0) value = random() % 2 == 0 ? infinity : std::numeric_limits<float>::quiet_NaN();
+}
+
+TEST(ResidualMeter, PointsOfTheTargetThatAreNotFiniteCountAsNone) {
+  Device device;
+  std::mt19937 random(5);
+  Target target = make_target(random);
+  spoil(target, random);
+  const PointSet moved = make_moved(random, 1111);
+  ResidualMeter meter(device, target, 1111);
+  std::vector<float> per_point;
+  const Residual expected = measure_residual_reference(target, moved.points, per_point);
+  const Residual measured = meter.measure(moved.points);
+  EXPECT_GT(expected.landed, 100);
+  EXPECT_EQ(measured.landed, expected.landed);
+  EXPECT_NEAR(measured.mean, expected.mean, 1e-4 * expected.mean);
+  EXPECT_EQ(measured.lost, 0);
+}
+
+TEST(ProjectiveCorrespondence, TakesNothingFromTheTargetThatIsNotFinite) {
+  Device device;
+  std::mt19937 random(6);
+  Target target = make_target(random);
+  spoil(target, random);
+  const PointSet moved = make_moved(random, 500);
+  std::vector<int> all(500);
+  std::iota(all.begin(), all.end(), 0);
+  const Array<int> selected(all);
+  Constraints found;
+  found.points = Array<float>(moved.points.host());
+  found.data = Array<float>(std::vector<float>(6 * 500));
+  found.confidence = Array<float>(std::vector<float>(500));
+  Constraints expected = found;
+  for (const int radius : {0, 3}) {
+    const ProjectiveCorrespondence correspondence(1e4, 1.5, radius);
+    correspondence.match(device, moved, selected, target, found);
+    correspondence.match_reference(moved, selected, target, expected);
+    EXPECT_EQ(found.confidence.host(), expected.confidence.host());
+    EXPECT_TRUE(any_in_force(device, found));
+    for (const float value : found.data.host()) ASSERT_TRUE(std::isfinite(value));
+  }
+}
+
+TEST(Constraints, AreInForceWhenOneIs) {
+  Device device;
+  Constraints constraints;
+  EXPECT_FALSE(any_in_force(device, constraints)) << "there is none";
+  for (const auto& [confidence, expected] : std::vector<std::pair<std::vector<float>, bool>>{
+           {{0, 0, 0}, false}, {{0, 0, 0.5F}, true}, {{std::numeric_limits<float>::quiet_NaN()}, false}}) {
+    constraints.points = Array<float>(std::vector<float>(3 * confidence.size()));
+    constraints.confidence = Array<float>(confidence);
+    EXPECT_EQ(any_in_force(device, constraints), expected);
+  }
+}
+
+TEST(ResidualMeter, CountsThePointsThatAreLost) {
+  Device device;
+  std::mt19937 random(5);
+  const Target target = make_target(random);
+  PointSet moved = make_moved(random, 700);
+  auto& values = moved.points.write_host();
+  values[0] = std::numeric_limits<float>::quiet_NaN();
+  values[1001] = std::numeric_limits<float>::infinity();
+  values[2000] = 2e18F;
+  std::vector<float> per_point;
+  ResidualMeter meter(device, target, 700);
+  const Residual measured = meter.measure(moved.points);
+  EXPECT_EQ(measured.lost, 3);
+  EXPECT_EQ(measure_residual_reference(target, moved.points, per_point).lost, 3);
 }
 
 TEST(ResidualMeter, IsZeroWhereNothingLands) {

@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 #include <Eigen/Cholesky>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
+#include "framework/core/error.h"
 #include "framework/deformation/warp.h"
 #include "solvers/gauss_newton/dense_cholesky.h"
 #include "solvers/gauss_newton/stepwise.h"
@@ -156,6 +159,24 @@ TEST_F(DenseCholesky, TheSameBitsEveryTime) {
   auto system = random_system(360, 3);
   put(equations, system);
   EXPECT_EQ(solve_system(equations).step, solve_system(equations).step);
+}
+
+// Before anything is allocated for it: the matrix has more bytes than a buffer, or an int of the kernels,
+// takes.
+TEST_F(SolverTest, DenseCholeskyRefusesAMatrixThatTheDeviceDoesNotTake) {
+  const double most = std::sqrt(static_cast<double>(device_.info().most_bytes) / sizeof(float));
+  const int nodes = static_cast<int>(std::min(most, 46336.0)) / affine_size + 6;
+  DeformationGraph graph;
+  for (int node = 0; node < nodes; ++node) graph.nodes.emplace_back(node, 0, 800);
+  Problem problem(graph, {});
+  const std::size_t unknowns = (affine_size * static_cast<std::size_t>(nodes) + 63) / 64 * 64;
+  try {
+    solve(problem, "{type: gauss_newton, linear_solver: dense_cholesky}");
+    FAIL() << nodes << " nodes were solved for";
+  } catch (const DeviceError& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr(std::to_string(sizeof(float) * unknowns * unknowns) + " bytes"));
+  }
 }
 
 }  // namespace

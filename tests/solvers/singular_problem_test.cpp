@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "framework/deformation/warp.h"
 #include "tests/problem/components.h"
 #include "tests/solvers/solve.h"
@@ -10,8 +12,10 @@ namespace {
 
 class SingularProblem : public SolverTest {
  protected:
-  static constexpr std::array<const char*, 3> kSolvers{
+  static constexpr std::array<const char*, 5> kSolvers{
       "{type: gauss_newton, max_iterations: 200}",
+      "{type: gauss_newton, linear_solver: structured, max_iterations: 200}",
+      "{type: gauss_newton, linear_solver: block_pcg, max_iterations: 200}",
       "{type: gauss_newton, linear_solver: dense_cholesky, max_iterations: 200}", "{type: ceres_lm}"};
 
   Energy energy(const std::string& yaml) const { return *make<Energy>(registry_, yaml); }
@@ -90,6 +94,18 @@ TEST_F(SingularProblem, AllConstraintsOutOfForce) {
   Problem problem(graph, make_terms(energies_, constraints));
   expect_solved(problem);
   EXPECT_THAT(problem.unknowns().host(), testing::Each(0));
+}
+
+TEST_F(SingularProblem, WhatIsNotInForceMayBeAnything) {
+  const Sheet sheet{.nodes = 8, .constraints = 40};
+  auto graph = make_sheet_graph(sheet);
+  const auto constraints = make_sheet_constraints(sheet, graph);
+  for (std::size_t i = 0; i < 10; ++i) {
+    constraints->confidence.write_host()[i] = 0;
+    constraints->data.write_host()[6 * i + i % 6] = std::numeric_limits<float>::quiet_NaN();
+  }
+  Problem problem(graph, make_terms(energies_, constraints));
+  expect_solved(problem);
 }
 
 TEST_F(SingularProblem, AllWeightsZero) {
