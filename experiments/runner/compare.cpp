@@ -104,7 +104,7 @@ std::unique_ptr<Problem> first_problem(const ExperimentPlan::Run& run, const Met
 
 RunComparison compare_run(const ExperimentPlan::Run& run, Workbench& workbench,
                           const ProgressSink& progress) {
-  const Method method = make_method(run.values, workbench.registry());
+  const Method method = make_method(run, workbench.registry());
   const auto frozen = first_problem(run, method, workbench);
   RunComparison comparison{
       run.name, frozen->node_count(), count_constraints(*frozen), frozen->unknown_count(), {}};

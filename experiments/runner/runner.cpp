@@ -40,10 +40,25 @@ void write_reports(const ExperimentPlan::Run& run, const Input& input, const fs:
     registry.make<Report>(section)->write(input, folder);
 }
 
+/// Handles cannot give everything that an energy may ask for.
+void check_energies(const Method& method, const std::string& place) {
+  const auto is_pull = [](const Energy& energy) { return energy.stencil == Stencil::per_constraint; };
+  if (std::none_of(method.energies.begin(), method.energies.end(), is_pull))
+    throw ConfigError(place +
+                      ": no energy draws the surface to the handles; expected 'constraint' among "
+                      "the energies");
+  for (const Energy& energy : method.energies) {
+    if (is_pull(energy) && energy.source == ConstraintSource::features)
+      throw ConfigError(
+          fmt::format("{}: the energy '{}' needs a target to match features with; handles have none", place,
+                      energy.equation.name));
+  }
+}
+
 RunRecord make_run(const ExperimentPlan::Run& run, const fs::path& folder, Workbench& workbench,
                    const ProgressSink& progress) {
   const FramePair& pair = workbench.pair(run.values);
-  const Method method = make_method(run.values, workbench.registry());
+  const Method method = make_method(run, workbench.registry());
   RunRecord record;
   record.name = run.name;
   Device& device = workbench.device(run.values);
@@ -62,26 +77,9 @@ RunRecord make_run(const ExperimentPlan::Run& run, const fs::path& folder, Workb
   return record;
 }
 
-/// A method whose energies ask for nothing else than handles can give.
-Method make_edit_method(const ExperimentPlan::Run& run, const Registry& registry) {
-  Method method = make_method(run.values, registry);
-  const auto is_pull = [](const Energy& energy) { return energy.stencil == Stencil::per_constraint; };
-  if (std::none_of(method.energies.begin(), method.energies.end(), is_pull))
-    throw ConfigError(run.place +
-                      ": no energy draws the surface to the handles; expected 'constraint' among "
-                      "the energies");
-  for (const Energy& energy : method.energies) {
-    if (is_pull(energy) && energy.source == ConstraintSource::features)
-      throw ConfigError(
-          fmt::format("{}: the energy '{}' needs a target to match features with; handles have none",
-                      run.place, energy.equation.name));
-  }
-  return method;
-}
-
 EditRecord make_edit(const ExperimentPlan::Run& run, const fs::path& folder, Workbench& workbench) {
   const FramePair& pair = workbench.pair(run.values);
-  const Method method = make_edit_method(run, workbench.registry());
+  const Method method = make_method(run, workbench.registry());
   const NamedHandles handles = make_handles(run, workbench.registry());
   Device& device = workbench.device(run.values);
   device.measure_stages(true);
@@ -128,6 +126,12 @@ std::string page_of(const ExperimentPlan& plan, std::size_t run, const std::stri
 
 }  // namespace
 
+Method make_method(const ExperimentPlan::Run& run, const Registry& registry) {
+  Method method = make_method(run.values, registry);
+  if (!run.values.sections("handles").empty()) check_energies(method, run.place);
+  return method;
+}
+
 NamedHandles make_handles(const ExperimentPlan::Run& run, const Registry& registry) {
   NamedHandles handles;
   for (const auto& [name, section] : run.values.sections("handles"))
@@ -143,10 +147,7 @@ void prepare_folder(const fs::path& folder, const ExperimentPlan& plan) {
 void check_experiment(const ExperimentPlan& plan, Workbench& workbench) {
   const Registry& registry = workbench.registry();
   for (const auto& run : plan.runs) {
-    if (plan.has_handles())
-      make_edit_method(run, registry);
-    else
-      make_method(run.values, registry);
+    make_method(run, registry);
     for (const auto& [name, section] : run.values.sections("reports")) registry.make<Report>(section);
     for (const auto& [name, section] : run.values.sections("solvers")) registry.make<Solver>(section);
     const FramePair& pair = workbench.pair(run.values);

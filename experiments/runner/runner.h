@@ -30,6 +30,10 @@ std::vector<RunRecord> run_experiment(const ExperimentPlan& plan, const std::fil
 std::vector<EditRecord> edit_experiment(const ExperimentPlan& plan, const std::filesystem::path& folder,
                                         Workbench& workbench);
 
+/// The method of a run. Throws ConfigError for a combination that makes no sense, also of energies and
+/// handles.
+Method make_method(const ExperimentPlan::Run& run, const Registry& registry);
+
 /// The handles of a run, by name.
 NamedHandles make_handles(const ExperimentPlan::Run& run, const Registry& registry);
 

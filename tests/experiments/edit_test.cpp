@@ -180,6 +180,9 @@ TEST_F(EditTest, EnergiesThatHandlesCannotServeAreErrors) {
   const std::string one = "handles: {a: {type: pixel, at: [80, 60], radius: 10}}\n";
   EXPECT_THAT(error(one + "energies: {feature: {weight: 1}}\n"),
               HasSubstr("small.yaml: the energy 'feature' needs a target"));
+  EXPECT_THROW(compare_solvers(plan(one + "energies: {feature: {weight: 1}}\nsolvers: {a: gauss_newton}\n"),
+                               file("out"), workbench_),
+               ConfigError);
   write("bare.yaml",
         "data: {type: synthetic_sheet, image_width: 80, image_height: 60, focal_length: 65.6}\n"
         "energies: {rotation: , regularization: }\n" +
