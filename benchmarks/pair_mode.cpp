@@ -52,20 +52,28 @@ class MethodSwap {
     std::vector<std::string> sets;
     for (const auto& entry : given) {
       const auto key = entry.first.as<std::string>();
-      if (key == "extends" || is_for_another_component(key, entry.second, own, bare)) continue;
-      sets.push_back(as_set(given, key));
+      if (key == "extends" || key == "runs" || key == "quick") continue;
+      const YAML::Node value = what_concerns(bare, own, key, entry.second);
+      if (value.size() > 0 || !value.IsMap()) sets.push_back(key + "=" + YAML::Dump(value));
     }
     return load(method, sets);
   }
 
  private:
-  /// Such as the spacing of a uniform graph, where the method has a quadtree.
-  static bool is_for_another_component(const std::string& key, const YAML::Node& value, const Parameters& own,
-                                       const Parameters& bare) {
+  /// What a value says of components that the method `bare` has: neither the spacing of a uniform graph where
+  /// that has a quadtree, nor the scale of an energy that it does without.
+  static YAML::Node what_concerns(const Parameters& bare, const Parameters& own, const std::string& key,
+                                  const YAML::Node& value) {
     const auto table = experiment_table();
-    const Parameter* row = table.find(key);
-    return row->type() == ParameterType::component && value.IsMap() && !value["type"] &&
-           own.section(key).component() != bare.section(key).component();
+    const auto type = table.find(key)->type();
+    if (type == ParameterType::component && value.IsMap() && !value["type"] &&
+        own.section(key).component() != bare.section(key).component())
+      return YAML::Node(YAML::NodeType::Map);
+    if (type != ParameterType::components) return value;
+    YAML::Node kept(YAML::NodeType::Map);
+    for (const auto& [label, section] : bare.sections(key))
+      if (value[label]) kept[label] = value[label];
+    return kept;
   }
 
   static std::string as_set(const YAML::Node& given, const std::string& key) {

@@ -1,5 +1,7 @@
 #include "framework/registration/method.h"
 
+#include <cmath>
+
 namespace pliant {
 namespace {
 
@@ -21,7 +23,40 @@ StoppingRule make_stopping(const Parameters& section) {
           section.real("min_progress")};
 }
 
+ParameterTable relaxation_table() {
+  const Relaxation relaxation;
+  return {
+      integer("stages", relaxation.stages)
+          .range(1, 100)
+          .doc("Stages from a stiff start to none; 1: no relaxation"),
+      real("stiffness", relaxation.stiffness)
+          .above(0)
+          .doc(
+              "Factor of the energies per node and per edge in the first stage; it falls geometrically to 1"),
+      real("loss_scale", relaxation.loss_scale)
+          .above(0)
+          .doc("Factor of the scale of robust losses in the first stage; it falls geometrically to 1"),
+      integer("iterations", relaxation.iterations)
+          .range(1, 10000)
+          .doc("Outer iterations of a stage at most, but for the last; no progress ends it sooner"),
+  };
+}
+
+Relaxation make_relaxation(const Parameters& section) {
+  return {static_cast<int>(section.integer("stages")), section.real("stiffness"), section.real("loss_scale"),
+          static_cast<int>(section.integer("iterations"))};
+}
+
 }  // namespace
+
+Energy Relaxation::relaxed(Energy energy, int stage) const {
+  const double remaining = stages < 2 ? 0 : static_cast<double>(stages - 1 - stage) / (stages - 1);
+  if (energy.stencil == Stencil::per_constraint)
+    energy.loss.scale *= std::pow(loss_scale, remaining);
+  else
+    energy.weight *= std::pow(stiffness, remaining);
+  return energy;
+}
 
 std::vector<Parameter> method_rows() {
   const Method method;
@@ -41,6 +76,8 @@ std::vector<Parameter> method_rows() {
           .above(0)
           .doc("Unit of length in the energies: 1000 for metres; it shifts the balance of their weights"),
       component("solver", "solver", "gauss_newton").doc("What minimises E_tot"),
+      group("relaxation", relaxation_table())
+          .doc("A stiff and tolerant start that is relaxed stage by stage"),
       group("stopping", stopping_table()).doc("When the outer loop ends"),
   };
 }
@@ -58,6 +95,7 @@ Method make_method(const Parameters& experiment, const Registry& registry) {
     method.energies.push_back(*registry.make<Energy>(section));
   method.length_unit = experiment.real("length_unit");
   method.solver = registry.make<Solver>(experiment.section("solver"));
+  method.relaxation = make_relaxation(experiment.section("relaxation"));
   method.stopping = make_stopping(experiment.section("stopping"));
   return method;
 }

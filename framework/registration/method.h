@@ -21,6 +21,19 @@ struct StoppingRule {
   double min_progress = 1e-3;  ///< ends when the mean residual falls by less than this share of itself
 };
 
+/// A stiff and tolerant start, relaxed stage by stage. What is stiff is not bent by matches that are far from
+/// the truth, and a surface that is nearly in place finds better ones (Amberg et al. 2007); a wide loss takes
+/// nothing for an outlier that is only far away yet (graduated non-convexity, Blake and Zisserman 1987).
+struct Relaxation {
+  int stages = 1;
+  double stiffness = 1;   ///< factor in the first stage of the energies per node and per edge
+  double loss_scale = 1;  ///< factor in the first stage of the scale of robust losses
+  int iterations = 5;     ///< outer iterations at most in each stage but the last
+
+  /// The term as it counts in a stage: the factors fall geometrically, to 1 in the last stage.
+  Energy relaxed(Energy energy, int stage) const;
+};
+
 /// How a pair is registered: the components that an experiment file puts together.
 struct Method {
   std::unique_ptr<DepthFilter> filter;
@@ -33,6 +46,7 @@ struct Method {
   std::vector<Energy> energies;
   double length_unit = 1;  ///< mm per unit of length in the energies
   std::unique_ptr<Solver> solver;
+  Relaxation relaxation;
   StoppingRule stopping;
 };
 

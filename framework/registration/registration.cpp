@@ -23,12 +23,18 @@ std::vector<T> pick(const std::vector<T>& values, const std::vector<int>& indice
   return picked;
 }
 
-/// Graph, weights and constraints, and the problem that they make: what adapting makes anew.
-struct Model {
+/// The deformation graph and how the source hangs on it: what only other nodes make anew.
+struct Skeleton {
   std::vector<int> nodes;  ///< points of the source
-  Array<float> node_points;
-  Influences influences;  ///< of every point of the source
-  Array<int> selected;    ///< the points that are constrained
+  std::vector<Eigen::Vector3f> positions;
+  Array<float> node_points;  ///< the positions again, for the device
+  Influences influences;     ///< of every point of the source
+  std::vector<Edge> edges;
+};
+
+/// Constraints and the problem that they and a skeleton make: what each adaptation makes anew.
+struct Model {
+  Array<int> selected;  ///< the points that are constrained
   std::shared_ptr<Constraints> constraints;
   std::unique_ptr<Problem> problem;
 };
@@ -75,36 +81,44 @@ bool uses_features(const Energy& energy) {
 
 std::vector<Term> make_terms(Device& device, const Method& method, const Scene& scene,
                              const std::vector<Eigen::Vector3f>& node_positions,
-                             const std::shared_ptr<Constraints>& surface) {
+                             const std::shared_ptr<Constraints>& surface, int stage) {
   std::shared_ptr<Constraints> features;
   if (std::any_of(method.energies.begin(), method.energies.end(), uses_features))
     features = make_feature_constraints(device, method, scene, node_positions);
   std::vector<Term> terms;
   for (const Energy& energy : method.energies) {
-    if (energy.stencil != Stencil::per_constraint)
-      terms.push_back({energy, nullptr});
-    else
-      terms.push_back({energy, uses_features(energy) ? features : surface});
+    std::shared_ptr<Constraints> constraints;
+    if (energy.stencil == Stencil::per_constraint) constraints = uses_features(energy) ? features : surface;
+    terms.push_back({method.relaxation.relaxed(energy, stage), std::move(constraints)});
   }
   return terms;
 }
 
-Model make_model(const Scene& scene, const Method& method, Device& device, const PointSelection& nodes,
-                 const PointSelection& samples, StageTimes& times) {
-  check_selection(scene, "node of the graph", nodes.points());
-  check_selection(scene, "constraint", samples.points());
-  const auto positions = pick(scene.aligned.points, nodes.points());
-  Influences influences = compute_influences(device, scene.rest.points, positions, method.nearest_nodes);
-  influences.nodes.host();  // waits here for the device: its "weights" are not the time of "edges"
-  auto edges =
-      timed(times, "edges", [&] { return find_edges(influences, static_cast<int>(positions.size())); });
+Skeleton make_skeleton(const Scene& scene, const Method& method, Device& device,
+                       const std::vector<int>& nodes, StageTimes& times) {
+  check_selection(scene, "node of the graph", nodes);
+  Skeleton skeleton;
+  skeleton.nodes = nodes;
+  skeleton.positions = pick(scene.aligned.points, nodes);
+  skeleton.node_points = flatten(skeleton.positions);
+  skeleton.influences =
+      compute_influences(device, scene.rest.points, skeleton.positions, method.nearest_nodes);
+  skeleton.influences.nodes.host();  // waits here for the device: its "weights" are not the time of "edges"
+  skeleton.edges =
+      timed(times, "edges", [&] { return find_edges(skeleton.influences, static_cast<int>(nodes.size())); });
+  return skeleton;
+}
+
+Model make_model(const Scene& scene, const Method& method, Device& device, const Skeleton& skeleton,
+                 const std::vector<int>& samples, int stage) {
+  check_selection(scene, "constraint", samples);
   auto constraints =
-      make_constraints(device, method, pick(scene.aligned.points, samples.points()), positions);
-  auto problem = std::make_unique<Problem>(DeformationGraph{positions, std::move(edges)},
-                                           make_terms(device, method, scene, positions, constraints),
-                                           method.length_unit, *method.transform);
-  return {nodes.points(),         flatten(positions), std::move(influences), Array<int>(samples.points()),
-          std::move(constraints), std::move(problem)};
+      make_constraints(device, method, pick(scene.aligned.points, samples), skeleton.positions);
+  auto problem =
+      std::make_unique<Problem>(DeformationGraph{skeleton.positions, skeleton.edges},
+                                make_terms(device, method, scene, skeleton.positions, constraints, stage),
+                                method.length_unit, *method.transform);
+  return {Array<int>(samples), std::move(constraints), std::move(problem)};
 }
 
 /// Room for a deformed set of points.
@@ -123,7 +137,8 @@ class Registration {
                      [&] { return method.graph->select_nodes(device, scene_.aligned, pair.camera); })),
         samples_(timed(times_, "acs",
                        [&] { return method.sampler->select(device, scene_.aligned, pair.camera); })),
-        model_(make_model(scene_, method, device, *nodes_, *samples_, times_)),
+        skeleton_(make_skeleton(scene_, method, device, nodes_->points(), times_)),
+        model_(make_new_model()),
         moved_(unwritten(scene_.rest)),
         meter_(device, scene_.target, scene_.aligned.size()) {
     update_source();
@@ -168,7 +183,8 @@ class Registration {
   }
 
   void update_source() {
-    warp(device_, scene_.rest, model_.influences, model_.node_points, model_.problem->unknowns(), moved_);
+    warp(device_, scene_.rest, skeleton_.influences, skeleton_.node_points, model_.problem->unknowns(),
+         moved_);
   }
 
   /// Moves each point that was given as the filtered one in its place was moved. The transforms are not
@@ -176,7 +192,7 @@ class Registration {
   /// be stretched by that.
   void deform_unfiltered() {
     const PointSet given{scene_.rest.points, scene_.unfiltered->normals};
-    warp(device_, given, model_.influences, model_.node_points, model_.problem->unknowns(), moved_);
+    warp(device_, given, skeleton_.influences, skeleton_.node_points, model_.problem->unknowns(), moved_);
     const auto& filtered = scene_.rest.points.host();
     const auto& unfiltered = scene_.unfiltered->points.host();
     auto& moved = moved_.points.write_host();
@@ -259,12 +275,24 @@ class Registration {
     return is_near(last[1]) || (residuals_.size() > 2 && *last < last[1] && is_near(last[2]));
   }
 
-  /// Only a new graph promises more where nothing was gained: adaptive constraints seldom stay the same.
+  /// Goes to the next stage of less stiffness when this one is over; whether it does.
+  bool relax() {
+    const Relaxation& relaxation = method_.relaxation;
+    const bool is_over = is_stuck() || iterations_ - stage_began_ >= relaxation.iterations;
+    if (stage_ + 1 >= relaxation.stages || !is_over) return false;
+    ++stage_;
+    stage_began_ = iterations_;
+    return true;
+  }
+
+  /// Only a softer or a new graph promises more where nothing was gained: adaptive constraints seldom stay
+  /// the same.
   void adapt() {
+    const bool is_softer = relax();
     const bool has_new_nodes = adapt_nodes();
-    if (!has_new_nodes && is_stuck())
+    if (!is_softer && !has_new_nodes && is_stuck())
       termination_ = "no_progress";
-    else if (const bool has_new_samples = adapt_samples(); has_new_nodes || has_new_samples)
+    else if (const bool has_new_samples = adapt_samples(); is_softer || has_new_nodes || has_new_samples)
       renew();
   }
 
@@ -288,12 +316,20 @@ class Registration {
     if (termination_.empty()) rebuild();
   }
 
+  Model make_new_model() {
+    return make_model(scene_, method_, device_, skeleton_, samples_->points(), stage_);
+  }
+
   /// Makes the model of the graph and constraints anew; the deformation so far is kept.
   void rebuild() {
-    Model next = make_model(scene_, method_, device_, *nodes_, *samples_, times_);
-    next.problem->unknowns() = carry_over({model_.nodes, model_.influences, model_.problem->unknowns()},
-                                          next.nodes, scene_.aligned.points);
-    model_ = std::move(next);
+    Array<float> start = model_.problem->unknowns();
+    if (nodes_->points() != skeleton_.nodes) {
+      Skeleton next = make_skeleton(scene_, method_, device_, nodes_->points(), times_);
+      start = carry_over({skeleton_.nodes, skeleton_.influences, start}, next.nodes, scene_.aligned.points);
+      skeleton_ = std::move(next);
+    }
+    model_ = make_new_model();
+    model_.problem->unknowns() = std::move(start);
     bind_solver();
   }
 
@@ -311,6 +347,9 @@ class Registration {
   Scene scene_;
   std::unique_ptr<NodeSelection> nodes_;
   std::unique_ptr<PointSelection> samples_;
+  int stage_ = 0;  ///< of relaxation
+  int stage_began_ = 0;
+  Skeleton skeleton_;
   Model model_;
   PointSet moved_;
   ResidualMeter meter_;
@@ -345,7 +384,7 @@ RegistrationResult Registration::take_result() {
   if (scene_.unfiltered) deform_unfiltered();
   result.points = unflatten(moved_.points);
   result.normals = unflatten(moved_.normals);
-  result.node_positions = pick(scene_.aligned.points, model_.nodes);
+  result.node_positions = skeleton_.positions;
   result.graph_cells = nodes_->cells();
   result.counts.source_points = static_cast<int>(scene_.source.size());
   result.counts.nodes = model_.problem->node_count();

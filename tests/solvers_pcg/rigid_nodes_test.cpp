@@ -228,11 +228,11 @@ TEST_F(RigidNodes, AreRefusedByTheStructuredSolverAndTheAutomaticOneSaysWhy) {
             "block_pcg: transform quaternion couples the axes of a node");
 }
 
-TEST_F(RigidNodes, ThatStandNowhereAreAnError) {
+TEST_F(RigidNodes, ThatStandNowhereFail) {
   for (const auto& name : linear_solvers()) {
     auto problem = rigid({.nodes = 9, .constraints = 50});
     problem.unknowns().write_host()[5] = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_THROW(solve(problem, with(name)), NumericalError) << name;
+    EXPECT_EQ(solve(problem, with(name)).termination, "failed") << name;
   }
 }
 
