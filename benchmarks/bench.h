@@ -9,6 +9,7 @@ namespace pliant::bench {
 struct Options {
   std::string json;    ///< file for the rows; none when empty
   std::string only;    ///< measure only what has this in its name
+  std::string data;    ///< folder of data beside the usual ones (pair mode)
   bool quick = false;  ///< fewer sizes and repetitions
 };
 
@@ -29,5 +30,6 @@ class Timings {
 
 int run_solver_mode(const Options& options);
 int run_kernels_mode(const Options& options);
+int run_pair_mode(const Options& options);
 
 }  // namespace pliant::bench

@@ -36,6 +36,20 @@ void tell_end(const RunRecord& run) {
   for (const auto& warning : result.warnings) fmt::print("{}: warning: {}\n", run.name, warning);
 }
 
+void tell_end(const EditRecord& run) {
+  const EditResult& result = run.result;
+  fmt::print("{}: {} after {} iterations; {} with {}\n", run.name, result.solver.termination,
+             result.counts.solver_iterations, result.solver.name, result.solver.linear_solver);
+  for (const auto& warning : result.warnings) fmt::print("{}: warning: {}\n", run.name, warning);
+}
+
+template <class Record>
+void tell(const ExperimentPlan& plan, const std::vector<Record>& runs, const fs::path& folder) {
+  fmt::print("{}\n", to_text(run_table(plan, runs)));
+  for (const auto& run : runs) tell_end(run);
+  fmt::print("Results are in {}\n", folder.string());
+}
+
 }  // namespace
 
 ConfigSource config_source(const ExperimentOptions& options) {
@@ -47,14 +61,16 @@ void run_command(const ExperimentOptions& options) {
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
   const fs::path folder = out_folder(options, plan);
   Workbench workbench(registry);
+  if (plan.has_handles()) {
+    tell(plan, edit_experiment(plan, folder, workbench), folder);
+    return;
+  }
   std::vector<RunRecord> runs;
   {
     ProgressLine line;
     runs = run_experiment(plan, folder, workbench, line.sink());
   }
-  fmt::print("{}\n", to_text(run_table(plan, runs)));
-  for (const auto& run : runs) tell_end(run);
-  fmt::print("Results are in {}\n", folder.string());
+  tell(plan, runs, folder);
   check_ends(plan, runs);
 }
 

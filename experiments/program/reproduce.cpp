@@ -29,6 +29,7 @@ struct Item {
 
 constexpr std::array items{
     Item{"sheet", false, ""},
+    Item{"edit_handles", false, ""},
     Item{"shirt", false, "deepdeform_seq258/depth_000000.png"},
     Item{"compare_solvers", true, ""},
 };
@@ -69,6 +70,8 @@ class Reproduction {
 
  private:
   std::vector<Table> run(const Item& item, const ExperimentPlan& plan) {
+    if (plan.has_handles())
+      return {run_table(plan, edit_experiment(plan, out_ / item.name, workbench_), item.name)};
     ProgressLine line;
     const auto runs = run_experiment(plan, out_ / item.name, workbench_, line.sink());
     check_ends(plan, runs);

@@ -68,16 +68,17 @@ std::string facts_table(const std::vector<std::pair<std::string, std::string>>& 
   return "<div class=\"scroll\"><table><tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
-std::string counts_table(const RegistrationResult& result) {
-  const RegistrationResult::Counts& counts = result.counts;
-  return html_section("Counts",
-                      facts_table({{"Source points", std::to_string(counts.source_points)},
-                                   {"Nodes", std::to_string(counts.nodes)},
-                                   {"Edges", std::to_string(counts.edges)},
-                                   {"Constraints", std::to_string(counts.constraints)},
-                                   {"Unknowns", std::to_string(counts.unknowns)},
-                                   {"Outer iterations", std::to_string(counts.outer_iterations)},
-                                   {"Solver iterations", std::to_string(counts.solver_iterations)}}));
+std::string counts_table(const RegistrationResult::Counts& counts) {
+  std::vector<std::pair<std::string, std::string>> facts{
+      {"Source points", std::to_string(counts.source_points)},
+      {"Nodes", std::to_string(counts.nodes)},
+      {"Edges", std::to_string(counts.edges)},
+      {"Constraints", std::to_string(counts.constraints)},
+      {"Unknowns", std::to_string(counts.unknowns)}};
+  if (counts.outer_iterations > 0)
+    facts.emplace_back("Outer iterations", std::to_string(counts.outer_iterations));
+  facts.emplace_back("Solver iterations", std::to_string(counts.solver_iterations));
+  return html_section("Counts", facts_table(facts));
 }
 
 std::string method_table(const RegistrationResult& result) {
@@ -99,16 +100,37 @@ std::string method_table(const RegistrationResult& result) {
            {"Initial translation", fmt::format("{:.1f} mm", result.alignment.motion.translation().norm())}}));
 }
 
-std::string energy_plot(const RegistrationResult::Energy& energy) {
+std::string method_table(const EditResult& result) {
+  return html_section("Method", facts_table({{"Solver", result.solver.name},
+                                             {"Linear solver", result.solver.linear_solver},
+                                             {"The solve ended", result.solver.termination}}));
+}
+
+std::string handles_table(const EditResult& result) {
+  std::string rows;
+  for (const auto& handle : result.handles)
+    rows += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{:.2f}</td><td "
+        "class=\"final\">{:.3f}</td><td>{:.3f}</td>"
+        "</tr>\n",
+        html_escape(handle.name), handle.points, handle.initial_mean, handle.mean, handle.max);
+  return html_section("Handles: distance in mm of the points that they hold from where they want them",
+                      "<div class=\"scroll\"><table><thead><tr><th></th><th>points</th><th>initial "
+                      "mean</th><th>final mean</th>"
+                      "<th>final maximum</th></tr></thead><tbody>\n" +
+                          rows + "</tbody></table></div>\n");
+}
+
+std::string energy_plot(const RegistrationResult::Energy& energy, const char* step) {
   std::vector<double> values{energy.initial};
   values.insert(values.end(), energy.per_iteration.begin(), energy.per_iteration.end());
-  return html_section("Energy", log_plot_svg(values, "outer iteration", "energy (log scale)") +
+  return html_section("Energy", log_plot_svg(values, step, "energy (log scale)") +
                                     fmt::format("<p class=\"quiet\">From {:.6g} to {:.6g}.</p>\n",
                                                 energy.initial, energy.final));
 }
 
-std::string time_bars(const RegistrationResult& result) {
-  std::vector<std::pair<std::string, double>> stages(result.time_ms.begin(), result.time_ms.end());
+std::string time_bars(const StageTimes& time_ms, double total_ms) {
+  std::vector<std::pair<std::string, double>> stages(time_ms.begin(), time_ms.end());
   std::stable_sort(stages.begin(), stages.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   const double longest = stages.empty() ? 0 : stages.front().second;
@@ -122,14 +144,14 @@ std::string time_bars(const RegistrationResult& result) {
         html_escape(name), share, milliseconds);
   }
   rows += fmt::format("<tr><th scope=\"row\">total</th><td></td><td class=\"final\">{:.2f}</td></tr>\n",
-                      result.total_ms);
+                      total_ms);
   return html_section("Time in ms",
                       "<div class=\"scroll\"><table><tbody>\n" + rows + "</tbody></table></div>\n");
 }
 
-std::string picture_grid(const ReportInput& input) {
+std::string picture_grid(const std::vector<Picture>& pictures) {
   std::string figures;
-  for (const Picture& picture : draw_pictures(input)) {
+  for (const Picture& picture : pictures) {
     figures += fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"></figure>\n",
                            html_escape(picture.caption), base64(picture.png));
   }
@@ -140,7 +162,16 @@ class PageReport : public Report {
  public:
   std::vector<std::filesystem::path> write(const ReportInput& input,
                                            const std::filesystem::path& folder) const override {
-    const std::string page = make_page(input);
+    return write(make_page(input), folder);
+  }
+  std::vector<std::filesystem::path> write(const EditInput& input,
+                                           const std::filesystem::path& folder) const override {
+    return write(make_page(input), folder);
+  }
+
+ private:
+  static std::vector<std::filesystem::path> write(const std::string& page,
+                                                  const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "index.html";
     write_file(file.string(), {page.begin(), page.end()});
     return {file};
@@ -164,10 +195,20 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 
 std::string make_page(const ReportInput& input) {
   const RunRecord& run = input.run;
-  const std::string body = metrics_table(run) + "<div class=\"columns\">\n" + counts_table(run.result) +
-                           method_table(run.result) + energy_plot(run.result.energy) + time_bars(run.result) +
-                           "</div>\n" + picture_grid(input);
+  const std::string body =
+      metrics_table(run) + "<div class=\"columns\">\n" + counts_table(run.result.counts) +
+      method_table(run.result) + energy_plot(run.result.energy, "outer iteration") +
+      time_bars(run.result.time_ms, run.result.total_ms) + "</div>\n" + picture_grid(draw_pictures(input));
   return html_page(run.name, "Non-rigid registration of " + input.pair.name, body);
+}
+
+std::string make_page(const EditInput& input) {
+  const EditResult& result = input.run.result;
+  const std::string body = handles_table(result) + "<div class=\"columns\">\n" + counts_table(result.counts) +
+                           method_table(result) + energy_plot(result.energy, "iteration of the solver") +
+                           time_bars(result.time_ms, result.total_ms) + "</div>\n" +
+                           picture_grid(draw_pictures(input));
+  return html_page(input.run.name, "The source of " + input.pair.name + ", bent by handles", body);
 }
 
 void register_page_report(Registry& registry) {

@@ -9,6 +9,8 @@
 
 #include "experiments/report/graph_drawing.h"
 #include "experiments/report/heat_map.h"
+#include "experiments/report/surfaces.h"
+#include "framework/geometry/render.h"
 #include "framework/io/file.h"
 
 namespace pliant {
@@ -34,7 +36,8 @@ std::vector<float> depths(const std::vector<Eigen::Vector3f>& points) {
 }
 
 /// Values per source point, at the pixels that the points came from.
-Image<float> at_source_pixels(const ReportInput& input, const std::vector<float>& values) {
+template <class Input>
+Image<float> at_source_pixels(const Input& input, const std::vector<float>& values) {
   Image<float> image(input.pair.camera.width, input.pair.camera.height, nothing);
   const std::vector<Eigen::Vector2i>& pixels = input.run.result.source.pixels;
   for (std::size_t i = 0; i < values.size(); ++i) image(pixels[i].x(), pixels[i].y()) = values[i];
@@ -52,7 +55,8 @@ Image<float> target_depth(const SurfaceMap& target) {
 
 /// Fits the registered object, from where it starts to where it ends: a room behind it would otherwise
 /// take all the colours.
-ColorScale depth_scale(const RegistrationResult& result) {
+template <class Result>
+ColorScale depth_scale(const Result& result) {
   std::vector<float> values = depths(result.source.points);
   const std::vector<float> moved = depths(result.points);
   values.insert(values.end(), moved.begin(), moved.end());
@@ -117,16 +121,18 @@ std::vector<Picture> draw_errors(const ReportInput& input) {
 }
 
 /// Where the nodes lie in the source as it was given; they are known as the alignment moved them.
-std::vector<Eigen::Vector2d> node_pixels(const ReportInput& input) {
+template <class Input>
+std::vector<Eigen::Vector2d> node_pixels(const Input& input, const Eigen::Isometry3d& alignment) {
   const Camera& camera = input.pair.camera;
-  const Eigen::Isometry3d undo = input.run.result.alignment.motion.inverse();
+  const Eigen::Isometry3d undo = alignment.inverse();
   std::vector<Eigen::Vector2d> pixels;
   for (const Eigen::Vector3f& node : input.run.result.node_positions)
     pixels.push_back(camera.project(undo * node.cast<double>()));
   return pixels;
 }
 
-std::string count_nodes(const RegistrationResult& result) {
+template <class Result>
+std::string count_nodes(const Result& result) {
   const std::string nodes = fmt::format("{} nodes", result.node_positions.size());
   if (result.graph_cells.empty()) return nodes;
   const auto virtual_cells = std::count_if(result.graph_cells.begin(), result.graph_cells.end(),
@@ -134,20 +140,55 @@ std::string count_nodes(const RegistrationResult& result) {
   return fmt::format("{}, and {} virtual ones without a point at the centre", nodes, virtual_cells);
 }
 
-Picture draw_last_graph(const ReportInput& input) {
-  const RegistrationResult& result = input.run.result;
+template <class Input>
+Picture draw_last_graph(const Input& input, const Eigen::Isometry3d& alignment) {
+  const auto& result = input.run.result;
   const GraphDrawing graph{at_source_pixels(input, depths(result.source.points)), result.graph_cells,
-                           node_pixels(input)};
+                           node_pixels(input, alignment)};
   const char* caption = "Deformation graph at the end, over the source";
   return {"graph.png", caption, draw_graph(graph, caption, count_nodes(result))};
+}
+
+/// What the camera would see of the bent surface.
+Image<float> see_bent(const EditInput& input) {
+  constexpr float depth_step = 20;  // mm, within which neighbouring pixels are one surface
+  const EditResult& result = input.run.result;
+  std::vector<Eigen::Vector3d> vertices;
+  for (const Eigen::Vector3f& point : result.points) vertices.push_back(point.cast<double>());
+  Image<float> seen =
+      depth_of(render_mesh(vertices, triangulate(result.source, depth_step), input.pair.camera));
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (seen.data()[i] <= 0) seen.data()[i] = nothing;
+  return seen;
+}
+
+Picture draw_motion(const EditInput& input) {
+  const EditResult& result = input.run.result;
+  std::vector<float> lengths;
+  for (std::size_t i = 0; i < result.points.size(); ++i)
+    lengths.push_back((result.points[i] - result.source.points[i]).norm());
+  const float longest = lengths.empty() ? 0 : *std::max_element(lengths.begin(), lengths.end());
+  const ColorScale scale{ColorScale::Map::error, 0, static_cast<float>(round_up(std::max(longest, 0.1F)))};
+  return draw("motion.png", "How far each point went", at_source_pixels(input, lengths), scale,
+              fmt::format("at most {:.1f} mm", longest));
 }
 
 class PicturesReport : public Report {
  public:
   std::vector<std::filesystem::path> write(const ReportInput& input,
                                            const std::filesystem::path& folder) const override {
+    return write(draw_pictures(input), folder);
+  }
+  std::vector<std::filesystem::path> write(const EditInput& input,
+                                           const std::filesystem::path& folder) const override {
+    return write(draw_pictures(input), folder);
+  }
+
+ private:
+  static std::vector<std::filesystem::path> write(const std::vector<Picture>& pictures,
+                                                  const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
-    for (const Picture& picture : draw_pictures(input)) {
+    for (const Picture& picture : pictures) {
       files.push_back(folder / picture.file);
       write_file(files.back().string(), picture.png);
     }
@@ -160,8 +201,18 @@ class PicturesReport : public Report {
 std::vector<Picture> draw_pictures(const ReportInput& input) {
   std::vector<Picture> pictures = draw_depths(input);
   for (Picture& picture : draw_errors(input)) pictures.push_back(std::move(picture));
-  pictures.push_back(draw_last_graph(input));
+  pictures.push_back(draw_last_graph(input, input.run.result.alignment.motion));
   return pictures;
+}
+
+std::vector<Picture> draw_pictures(const EditInput& input) {
+  const EditResult& result = input.run.result;
+  const ColorScale scale = depth_scale(result);
+  return {draw("depth_source.png", "Source depth", at_source_pixels(input, depths(result.source.points)),
+               scale, count_points(result.source.size())),
+          draw("depth_registered.png", "Depth of the bent surface", see_bent(input), scale,
+               "as the same camera would see it"),
+          draw_motion(input), draw_last_graph(input, Eigen::Isometry3d::Identity())};
 }
 
 void register_pictures_report(Registry& registry) {

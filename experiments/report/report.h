@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/geometry/frame.h"
+#include "framework/registration/edit.h"
 #include "framework/registration/metrics.h"
 #include "framework/registration/result.h"
 
@@ -19,12 +20,23 @@ struct RunRecord {
   Metrics metrics;  ///< at the end
 };
 
+/// One run of an experiment that bends a surface by handles.
+struct EditRecord {
+  std::string name;
+  EditResult result;
+};
+
 /// What a report may draw on for one run.
 struct ReportInput {
   const FramePair& pair;
   const SurfaceMap& target;
   const Evaluation& evaluation;
   const RunRecord& run;
+};
+
+struct EditInput {
+  const FramePair& pair;  ///< only its source counts
+  const EditRecord& run;
 };
 
 /// Writes something about one run into a folder that exists.
@@ -34,6 +46,8 @@ class Report {
   virtual ~Report() = default;
   /// Gives the files written. Throws DataError when one cannot be.
   virtual std::vector<std::filesystem::path> write(const ReportInput& input,
+                                                   const std::filesystem::path& folder) const = 0;
+  virtual std::vector<std::filesystem::path> write(const EditInput& input,
                                                    const std::filesystem::path& folder) const = 0;
 };
 

@@ -51,6 +51,22 @@ class SurfacesReport : public Report {
     return files;
   }
 
+  /// The bent surface under the name of a registered one; `error` is how far each point went.
+  std::vector<std::filesystem::path> write(const EditInput& input,
+                                           const std::filesystem::path& folder) const override {
+    const EditResult& result = input.run.result;
+    const std::vector<Eigen::Vector3i> triangles = triangulate(result.source, depth_step_);
+    const PlySurface source{result.source, std::vector<float>(result.source.size(), 0), triangles};
+    PlySurface bent{result.source, {}, triangles};
+    for (std::size_t i = 0; i < result.points.size(); ++i)
+      bent.errors.push_back((result.points[i] - result.source.points[i]).norm());
+    bent.surface.points = result.points;
+    bent.surface.normals = result.normals;
+    write_ply((folder / "source.ply").string(), source);
+    write_ply((folder / "registered.ply").string(), bent);
+    return {folder / "source.ply", folder / "registered.ply"};
+  }
+
  private:
   float depth_step_;
 };
@@ -77,7 +93,7 @@ std::vector<Eigen::Vector3i> triangulate(const Surface& surface, float depth_ste
 
 void register_surfaces_report(Registry& registry) {
   registry.add<Report>(
-      "surfaces", "source.ply, target.ply and registered.ply, with the distance to the target in mm",
+      "surfaces", "source.ply, registered.ply and, where there is one, target.ply",
       {
           real("depth_step", 20)
               .unit("mm")

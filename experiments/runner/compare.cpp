@@ -96,13 +96,15 @@ std::unique_ptr<Problem> first_problem(const ExperimentPlan::Run& run, const Met
   const FramePair& pair = workbench.pair(run.values);  // what is wrong with it names its own file
   Device& device = workbench.device(run.values);
   return told_with_place(run.place, [&] {
+    const NamedHandles handles = make_handles(run, workbench.registry());
+    if (!handles.empty()) return make_edit_problem(pair, handles, method, device);
     return freeze_problem(pair, method, device, static_cast<std::uint64_t>(run.values.integer("seed")));
   });
 }
 
 RunComparison compare_run(const ExperimentPlan::Run& run, Workbench& workbench,
                           const ProgressSink& progress) {
-  const Method method = make_method(run.values, workbench.registry());
+  const Method method = make_method(run, workbench.registry());
   const auto frozen = first_problem(run, method, workbench);
   RunComparison comparison{
       run.name, frozen->node_count(), count_constraints(*frozen), frozen->unknown_count(), {}};

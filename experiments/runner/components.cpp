@@ -7,6 +7,7 @@
 #include "framework/geometry/depth_filter.h"
 #include "framework/registration/alignments.h"
 #include "framework/registration/correspondence.h"
+#include "framework/registration/handle.h"
 #include "graphs/graphs.h"
 #include "samplers/samplers.h"
 #include "solvers/solvers.h"
@@ -21,6 +22,7 @@ void register_everything(Registry& registry) {
   register_transforms(registry);
   register_samplers(registry);
   register_correspondences(registry);
+  register_handles(registry);
   register_energies(registry);
   register_solvers(registry);
   register_reports(registry);

@@ -9,6 +9,7 @@
 #include "experiments/report/report.h"
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
+#include "framework/registration/handle.h"
 #include "framework/registration/method.h"
 
 namespace pliant {
@@ -43,6 +44,15 @@ void check_quick(const ExperimentPlan& plan, const std::string& file) {
   }
 }
 
+/// Handles are needed by all runs or by none: what is written of a bent surface is not what is written of a
+/// registered one.
+void check_handles(const ExperimentPlan& plan) {
+  for (const auto& run : plan.runs) {
+    if (run.values.sections("handles").empty() != plan.experiment.values.sections("handles").empty())
+      throw ConfigError(run.place + ": the run has handles, the experiment has none; expected them in both");
+  }
+}
+
 /// The experiment says its own name also where the file left it to the file's name, so that what is written
 /// beside the results is the same experiment.
 void name_experiment(ExperimentPlan& plan, const ConfigSource& source) {
@@ -63,6 +73,10 @@ ParameterTable experiment_table() {
       text("device", "any").doc("OpenCL device: any, cpu, gpu, or a part of its name"),
       component("data", DataSource::kind).doc("what is registered"),
   };
+  rows.push_back(components("handles", Handle::kind)
+                     .optional()
+                     .at_least(1)
+                     .doc("bend the source by these handles instead of registering it to the target"));
   for (auto& row : method_rows()) rows.push_back(std::move(row));
   rows.push_back(components("reports", Report::kind).optional().doc("what is written about each run"));
   rows.push_back(overrides("runs").doc("variants that are run instead of the experiment itself"));
@@ -73,6 +87,8 @@ ParameterTable experiment_table() {
   rows.push_back(words("quick").optional().doc("runs that `pliant reproduce --quick` makes; all by default"));
   return ParameterTable(std::move(rows));
 }
+
+bool ExperimentPlan::has_handles() const { return !experiment.values.sections("handles").empty(); }
 
 void ExperimentPlan::keep_quick_runs() {
   const auto& quick = experiment.values.words("quick");
@@ -93,6 +109,7 @@ ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& regis
   }
   if (plan.runs.empty()) plan.runs.push_back({plan.name, plan.experiment.values, file});
   check_quick(plan, file);
+  check_handles(plan);
   return plan;
 }
 

@@ -10,7 +10,7 @@ namespace pliant {
 /// The keys of an experiment file.
 ParameterTable experiment_table();
 
-/// A checked experiment and the registrations it asks for.
+/// A checked experiment and the registrations, or the edits by handles, that it asks for.
 struct ExperimentPlan {
   struct Run {
     std::string name;
@@ -21,6 +21,9 @@ struct ExperimentPlan {
   std::string name;  ///< of the experiment: its `name`, else the file's
   Experiment experiment;
   std::vector<Run> runs;  ///< at least one
+
+  /// Whether its runs bend a surface by handles instead of registering it.
+  bool has_handles() const;
 
   /// Leaves out the runs that `quick` does not list, where it lists any.
   void keep_quick_runs();

@@ -39,6 +39,32 @@ ordered_json counts_json(const RegistrationResult::Counts& counts) {
           {"solver_iterations", counts.solver_iterations}};
 }
 
+ordered_json energy_json(const RegistrationResult::Energy& energy) {
+  return {{"initial", energy.initial}, {"final", energy.final}, {"per_iteration", energy.per_iteration}};
+}
+
+ordered_json time_json(double total, const StageTimes& stages) {
+  ordered_json times = {{"total", total}};
+  for (const auto& [stage, milliseconds] : stages) times[stage] = milliseconds;
+  return times;
+}
+
+ordered_json solver_json(const RegistrationResult::SolverRecord& solver) {
+  return {
+      {"name", solver.name}, {"linear_solver", solver.linear_solver}, {"termination", solver.termination}};
+}
+
+template <class Record>
+ordered_json make_result_json(const ExperimentPlan& plan, const DeviceInfo& device,
+                              const std::vector<Record>& runs) {
+  ordered_json list = ordered_json::array();
+  for (const auto& run : runs) list.push_back(run_json(run));
+  return {{"schema", 1},
+          {"experiment", plan.experiment.to_json()},
+          {"environment", environment_json(device, plan)},
+          {"runs", list}};
+}
+
 void check_finite(const ordered_json& json, const std::string& key) {
   if (json.is_number_float() && !std::isfinite(json.get<double>()))
     throw NumericalError(fmt::format("{} is {}; there is no finite answer", key, json.get<double>()));
@@ -67,8 +93,6 @@ ordered_json environment_json(const DeviceInfo& device, const ExperimentPlan& pl
 
 ordered_json run_json(const RunRecord& run) {
   const RegistrationResult& result = run.result;
-  ordered_json times = {{"total", result.total_ms}};
-  for (const auto& [stage, milliseconds] : result.time_ms) times[stage] = milliseconds;
   return {{"name", run.name},
           {"termination", result.termination},
           {"reason", result.reason},
@@ -77,25 +101,41 @@ ordered_json run_json(const RunRecord& run) {
           {"metrics", metrics_json(run.metrics)},
           {"initial", metrics_json(run.initial)},
           {"aligned", metrics_json(run.aligned)},
-          {"energy",
-           {{"initial", result.energy.initial},
-            {"final", result.energy.final},
-            {"per_iteration", result.energy.per_iteration}}},
-          {"time_ms", times},
-          {"solver",
-           {{"name", result.solver.name},
-            {"linear_solver", result.solver.linear_solver},
-            {"termination", result.solver.termination}}}};
+          {"energy", energy_json(result.energy)},
+          {"time_ms", time_json(result.total_ms, result.time_ms)},
+          {"solver", solver_json(result.solver)}};
+}
+
+ordered_json run_json(const EditRecord& run) {
+  const EditResult& result = run.result;
+  ordered_json counts = counts_json(result.counts);
+  counts.erase("outer_iterations");
+  ordered_json handles = ordered_json::object();
+  for (const auto& handle : result.handles)
+    handles[handle.name] = {{"points", handle.points},
+                            {"residual_initial_mean", handle.initial_mean},
+                            {"residual_mean", handle.mean},
+                            {"residual_max", handle.max}};
+  const auto all = result.all_handles();
+  return {{"name", run.name},
+          {"warnings", result.warnings},
+          {"counts", counts},
+          {"metrics", {{"handle_residual_mean", all.mean}, {"handle_residual_max", all.max}}},
+          {"initial", {{"handle_residual_mean", all.initial_mean}}},
+          {"handles", handles},
+          {"energy", energy_json(result.energy)},
+          {"time_ms", time_json(result.total_ms, result.time_ms)},
+          {"solver", solver_json(result.solver)}};
 }
 
 ordered_json result_json(const ExperimentPlan& plan, const DeviceInfo& device,
                          const std::vector<RunRecord>& runs) {
-  ordered_json list = ordered_json::array();
-  for (const auto& run : runs) list.push_back(run_json(run));
-  return {{"schema", 1},
-          {"experiment", plan.experiment.to_json()},
-          {"environment", environment_json(device, plan)},
-          {"runs", list}};
+  return make_result_json(plan, device, runs);
+}
+
+ordered_json result_json(const ExperimentPlan& plan, const DeviceInfo& device,
+                         const std::vector<EditRecord>& runs) {
+  return make_result_json(plan, device, runs);
 }
 
 void write_json(const std::string& path, const ordered_json& json) {

@@ -26,12 +26,25 @@ void check_experiment(const ExperimentPlan& plan, Workbench& workbench);
 std::vector<RunRecord> run_experiment(const ExperimentPlan& plan, const std::filesystem::path& folder,
                                       Workbench& workbench, const ProgressSink& progress = {});
 
+/// The same for an experiment with handles (ExperimentPlan::has_handles), which run_experiment does not take.
+std::vector<EditRecord> edit_experiment(const ExperimentPlan& plan, const std::filesystem::path& folder,
+                                        Workbench& workbench);
+
+/// The method of a run. Throws ConfigError for a combination that makes no sense, also of energies and
+/// handles.
+Method make_method(const ExperimentPlan::Run& run, const Registry& registry);
+
+/// The handles of a run, by name.
+NamedHandles make_handles(const ExperimentPlan::Run& run, const Registry& registry);
+
 /// Throws NumericalError naming the place of the first run that failed; its result is that of the iteration
 /// before.
 void check_ends(const ExperimentPlan& plan, const std::vector<RunRecord>& runs);
 
 /// The key figures of each run. Links lead from `folder_name` (empty: from inside the folder).
 Table run_table(const ExperimentPlan& plan, const std::vector<RunRecord>& runs,
+                const std::string& folder_name = "");
+Table run_table(const ExperimentPlan& plan, const std::vector<EditRecord>& runs,
                 const std::string& folder_name = "");
 
 }  // namespace pliant

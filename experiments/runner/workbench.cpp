@@ -21,6 +21,8 @@ std::string fingerprint(const Parameters& section) {
             for (const auto& [label, inner] : held) text += label + ":" + fingerprint(inner);
           } else if constexpr (std::is_same_v<Held, std::vector<std::string>>) {
             for (const auto& word : held) text += word + ",";
+          } else if constexpr (std::is_same_v<Held, std::vector<double>>) {
+            for (const double number : held) text += fmt::format("{},", number);
           } else {
             text += fmt::format("{}", held);
           }

@@ -100,6 +100,7 @@ Parameters::Value typed_value(const std::string& name, const ordered_json& scala
   if (scalar.is_boolean()) return {name, scalar.get<bool>()};
   if (scalar.is_number_integer()) return {name, scalar.get<std::int64_t>()};
   if (scalar.is_number_float()) return {name, scalar.get<double>()};
+  if (scalar.is_array()) return {name, scalar.get<std::vector<double>>()};
   return {name, scalar.get<std::string>()};
 }
 
@@ -136,6 +137,8 @@ std::string range_text(const Parameter& row) {
 
 ordered_json typed_default(const Parameter& row) {
   if (!row.default_text()) return nullptr;
+  if (row.type() == ParameterType::reals)
+    return ordered_json::parse(*row.default_text()).get<std::vector<double>>();
   ordered_json value = typed_scalar(row, *row.default_text());
   if (value.is_null())
     throw std::logic_error("the default of parameter '" + row.name() + "' is not allowed by its own row");
@@ -175,10 +178,10 @@ ResolvedSection ConfigResolver::section(const ConfigNode* node, const ParameterT
     MaybeResolved resolved = entry == nullptr ? absent(row, place) : given(row, *entry, place);
     if (!resolved) continue;
     values.push_back(std::move(resolved->value));
-    result.tree[row.name()] = std::move(resolved->tree);
+    if (!resolved->tree.is_null()) result.tree[row.name()] = std::move(resolved->tree);
   }
   if (node != nullptr) report_unknown_keys(*node, table, place, other_keys);
-  result.values = Parameters(component, std::move(values));
+  result.values = Parameters(component, std::move(values), to_string(place.mark));
   return result;
 }
 
@@ -200,7 +203,9 @@ ConfigResolver::MaybeResolved ConfigResolver::absent(const Parameter& row, const
   if (type == ParameterType::overrides || (is_list && row.is_optional())) {
     if (type == ParameterType::words)
       return Resolved{{row.name(), std::vector<std::string>{}}, ordered_json::array()};
-    return Resolved{{row.name(), Parameters::Sections{}}, ordered_json::object()};
+    // Left out when it is written again where an empty map would be an error.
+    return Resolved{{row.name(), Parameters::Sections{}},
+                    row.lowest() ? ordered_json() : ordered_json::object()};
   }
   if (row.is_optional()) return {};
   if (!row.default_text()) {
@@ -231,6 +236,8 @@ ConfigResolver::MaybeResolved ConfigResolver::given(const Parameter& row, const 
       return file(row, entry, place);
     case ParameterType::words:
       return words(row, entry, place);
+    case ParameterType::reals:
+      return reals(row, entry, place);
     case ParameterType::components:
       return components(row, entry, place);
     case ParameterType::overrides:
@@ -318,10 +325,42 @@ ConfigResolver::MaybeResolved ConfigResolver::words(const Parameter& row, const 
   return Resolved{{row.name(), texts}, texts};
 }
 
+ConfigResolver::MaybeResolved ConfigResolver::reals(const Parameter& row, const ConfigEntry& entry,
+                                                    const Place& place) {
+  const ConfigNode& node = entry.value;
+  if (node.kind != Kind::list) {
+    report(row, entry, place);
+    return {};
+  }
+  if (node.items.size() != row.size()) {
+    errors_.add(node.mark, fmt::format("{} has {} items; expected {}", in_quotes(place.key(row.name())),
+                                       node.items.size(), expected(row)));
+    return {};
+  }
+  std::vector<double> numbers;
+  for (const auto& item : node.items) {
+    const auto number =
+        item.kind == Kind::scalar && !item.quoted ? parse_number<double>(item.text) : std::nullopt;
+    if (number && in_range(row, *number))
+      numbers.push_back(*number);
+    else
+      errors_.add(item.mark, fmt::format("an item of {} is {}; expected {}", in_quotes(place.key(row.name())),
+                                         shown(item), expected(row)));
+  }
+  if (numbers.size() != row.size()) return {};
+  return Resolved{{row.name(), numbers}, numbers};
+}
+
 ConfigResolver::MaybeResolved ConfigResolver::components(const Parameter& row, const ConfigEntry& entry,
                                                          const Place& place) {
   if (entry.value.kind != Kind::map) {
     report(row, entry, place);
+    return {};
+  }
+  if (row.lowest() && static_cast<double>(entry.value.entries.size()) < *row.lowest()) {
+    errors_.add(entry.mark,
+                fmt::format("{} has {} entries; expected at least {}", in_quotes(place.key(row.name())),
+                            entry.value.entries.size(), *row.lowest()));
     return {};
   }
   Parameters::Sections sections;
@@ -454,6 +493,8 @@ std::string ConfigResolver::expected(const Parameter& row) const {
       return "a section with a partial experiment under each name";
     case ParameterType::words:
       return "a list of texts";
+    case ParameterType::reals:
+      return fmt::format("a list of {} finite numbers", row.size()) + limits;
   }
   throw std::logic_error("a parameter type without a name");
 }

@@ -30,7 +30,8 @@ class ConfigResolver {
   ResolvedSection experiment(const ConfigNode& tree);
 
  private:
-  /// What a row's key was resolved to; empty after an error, and for an optional key that is not there.
+  /// What a row's key was resolved to; empty after an error, and for an optional key that is not there. A
+  /// null `tree` is not written.
   struct Resolved {
     Parameters::Value value;
     nlohmann::ordered_json tree;
@@ -53,6 +54,7 @@ class ConfigResolver {
   MaybeResolved scalar(const Parameter& row, const ConfigEntry& entry, const Place& place);
   MaybeResolved file(const Parameter& row, const ConfigEntry& entry, const Place& place);
   MaybeResolved words(const Parameter& row, const ConfigEntry& entry, const Place& place);
+  MaybeResolved reals(const Parameter& row, const ConfigEntry& entry, const Place& place);
   MaybeResolved components(const Parameter& row, const ConfigEntry& entry, const Place& place);
   MaybeResolved overrides(const Parameter& row, const ConfigEntry& entry, const Place& place);
   ConfigNode without_overrides() const;

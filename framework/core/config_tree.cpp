@@ -12,13 +12,13 @@ namespace {
 constexpr std::size_t max_errors = 200;
 constexpr std::size_t max_shown_length = 80;
 
-std::string place(const ConfigMark& mark) {
+}  // namespace
+
+std::string to_string(const ConfigMark& mark) {
   if (mark.origin->is_file && mark.line > 0)
     return fmt::format("{}:{}:{}", mark.origin->name, mark.line, mark.column);
   return mark.origin->name;
 }
-
-}  // namespace
 
 const ConfigEntry* ConfigNode::find(const std::string& key) const {
   const auto entry =
@@ -59,7 +59,7 @@ std::string in_quotes(const std::string& text) {
 }
 
 void ConfigErrors::add(const ConfigMark& mark, const std::string& message) {
-  std::string line = place(mark) + ": " + message;
+  std::string line = to_string(mark) + ": " + message;
   const bool known =
       std::any_of(errors_.begin(), errors_.end(), [&](const Item& item) { return item.line == line; });
   if (known) return;

@@ -24,6 +24,9 @@ struct ConfigMark {
   int column = 0;
 };
 
+/// "file:line:column", or what the origin is called where there is no more to say.
+std::string to_string(const ConfigMark& mark);
+
 struct ConfigEntry;
 
 /// One value of an experiment file that remembers where it was given.

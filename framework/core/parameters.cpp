@@ -106,6 +106,13 @@ Parameter overrides(std::string name) {
 
 Parameter words(std::string name) { return {std::move(name), ParameterType::words}; }
 
+Parameter reals(std::string name, std::size_t size, std::optional<std::vector<double>> fallback) {
+  Parameter row(std::move(name), ParameterType::reals);
+  row.size_ = size;
+  if (fallback) row.default_ = fmt::format("[{}]", fmt::join(*fallback, ", "));
+  return row;
+}
+
 namespace {
 
 template <class T>
@@ -142,6 +149,10 @@ const std::string& Parameters::text(const std::string& name) const {
 
 const std::vector<std::string>& Parameters::words(const std::string& name) const {
   return value_as<std::vector<std::string>>(at(name), "words");
+}
+
+const std::vector<double>& Parameters::reals(const std::string& name) const {
+  return value_as<std::vector<double>>(at(name), "real numbers");
 }
 
 const Parameters& Parameters::section(const std::string& name) const {

@@ -26,6 +26,7 @@ enum class ParameterType {
   group,       ///< a section with a fixed table of its own
   overrides,   ///< a map from a name to a partial experiment that is laid over the whole
   words,       ///< a list of texts
+  reals,       ///< a list of so many finite numbers
 };
 
 /// One row of a component's parameter table: the only source of parsing, validation, documentation and
@@ -38,9 +39,9 @@ class Parameter {
   Parameter&& unit(std::string unit) &&;
   Parameter&& doc(std::string doc) &&;
   Parameter&& range(double lowest, double highest) &&;  ///< both ends allowed
-  Parameter&& at_least(double lowest) &&;
-  Parameter&& above(double lowest) &&;  ///< the end itself is not allowed
-  Parameter&& optional() &&;            ///< may be absent, and has no default
+  Parameter&& at_least(double lowest) &&;               ///< of a `components` parameter: so many entries
+  Parameter&& above(double lowest) &&;                  ///< the end itself is not allowed
+  Parameter&& optional() &&;                            ///< may be absent, and has no default
 
   const std::string& name() const { return name_; }
   ParameterType type() const { return type_; }
@@ -53,6 +54,8 @@ class Parameter {
   const std::vector<std::string>& choices() const { return choices_; }
   /// The kind of components that a `component` or `components` parameter takes.
   const std::string& kind() const { return kind_; }
+  /// How many numbers a `reals` parameter takes.
+  std::size_t size() const { return size_; }
   /// The table of a `group`.
   const ParameterTable& table() const { return *table_; }
   /// The default as it would stand in the file ("" for sections; absent when the key is required).
@@ -71,6 +74,7 @@ class Parameter {
   friend Parameter group(std::string name, ParameterTable table);
   friend Parameter overrides(std::string name);
   friend Parameter words(std::string name);
+  friend Parameter reals(std::string name, std::size_t size, std::optional<std::vector<double>> fallback);
 
   std::string name_;
   ParameterType type_;
@@ -83,6 +87,7 @@ class Parameter {
   std::optional<double> lowest_;
   std::optional<double> highest_;
   bool lowest_excluded_ = false;
+  std::size_t size_ = 0;
   bool optional_ = false;
 };
 
@@ -112,6 +117,8 @@ Parameter components(std::string name, std::string kind);
 Parameter group(std::string name, ParameterTable table);
 Parameter overrides(std::string name);
 Parameter words(std::string name);
+Parameter reals(std::string name, std::size_t size,
+                std::optional<std::vector<double>> fallback = std::nullopt);
 
 /// The checked values of one section of an experiment: every key of the table is there, with its default
 /// where the file is silent. Asking for a name or type that the table does not have is a programming
@@ -128,6 +135,7 @@ class Parameters {
   /// Value of a text, choice or path parameter (a path is absolute).
   const std::string& text(const std::string& name) const;
   const std::vector<std::string>& words(const std::string& name) const;
+  const std::vector<double>& reals(const std::string& name) const;
   /// A component or group section.
   const Parameters& section(const std::string& name) const;
   /// The entries of a `components` or `overrides` parameter in file order.
@@ -136,20 +144,27 @@ class Parameters {
   using Sections = std::vector<std::pair<std::string, Parameters>>;
   struct Value {
     std::string name;
-    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Sections> value;
+    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, std::vector<double>,
+                 Sections>
+        value;
     bool is_section = false;  ///< a component or group: `value` holds exactly one entry
   };
   const std::vector<Value>& values() const { return values_; }
 
   Parameters() = default;
-  Parameters(std::string component, std::vector<Value> values)
-      : component_(std::move(component)), values_(std::move(values)) {}
+  Parameters(std::string component, std::vector<Value> values, std::string place = "")
+      : component_(std::move(component)), values_(std::move(values)), place_(std::move(place)) {}
+
+  /// Where the section was named, for errors that only its use shows: "file:line:column"; empty where no file
+  /// has it.
+  const std::string& place() const { return place_; }
 
  private:
   const Value& at(const std::string& name) const;
 
   std::string component_;
   std::vector<Value> values_;
+  std::string place_;
 };
 
 }  // namespace pliant

@@ -93,9 +93,16 @@ class SchemaWriter {
     else
       schema.update(value(row));
     if (row.default_text() && !is_section(row)) schema["default"] = typed_default(row);
-    if (row.lowest()) schema[row.lowest_excluded() ? "exclusiveMinimum" : "minimum"] = limit(*row.lowest());
-    if (row.highest()) schema["maximum"] = limit(*row.highest());
+    // Limits of a list are those of its items.
+    ordered_json& limited = row.type() == ParameterType::reals ? schema["items"] : schema;
+    if (row.lowest()) limited[lowest_key(row)] = limit(*row.lowest());
+    if (row.highest()) limited["maximum"] = limit(*row.highest());
     return schema;
+  }
+
+  static const char* lowest_key(const Parameter& row) {
+    if (row.type() == ParameterType::components) return "minProperties";
+    return row.lowest_excluded() ? "exclusiveMinimum" : "minimum";
   }
 
   ordered_json value(const Parameter& row) const {
@@ -116,6 +123,11 @@ class SchemaWriter {
         return {{"type", "object"}, {"additionalProperties", or_empty(reference("override"))}};
       case ParameterType::words:
         return {{"type", {"array", "string", "number", "boolean"}}, {"items", bare_text()}};
+      case ParameterType::reals:
+        return {{"type", "array"},
+                {"items", {{"type", "number"}}},
+                {"minItems", row.size()},
+                {"maxItems", row.size()}};
       default:
         return bare_text();
     }
@@ -229,6 +241,8 @@ std::string type_shown(const Parameter& row) {
       return "overrides";
     case ParameterType::words:
       return "list of texts";
+    case ParameterType::reals:
+      return fmt::format("{} numbers", row.size());
   }
   throw std::logic_error("a parameter type without a name");
 }

@@ -23,5 +23,6 @@ kernel void warp(global const float* points, global const float* normals, int po
   const float3 n = vload3(i, normals);
   const float3 turned = n.x * cross(c2, c3) + n.y * cross(c3, c1) + n.z * cross(c1, c2);
   const float length_squared = dot(turned, turned);
-  vstore3(length_squared > 0 && isfinite(length_squared) ? turned * rsqrt(length_squared) : (float3)(0), i, moved_normals);
+  vstore3(length_squared > 0 && isfinite(length_squared) ? turned * rsqrt(length_squared) : (float3)(0), i,
+          moved_normals);
 }

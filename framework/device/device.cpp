@@ -149,7 +149,7 @@ void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::si
                      rounded),
          error);
   }
-  if (measuring_) records_.push_back({stage, kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(), event});
+  if (measuring_) records_.push_back({stage, kernel, event});
 }
 
 cl::Buffer Device::allocate(std::size_t bytes) const {
@@ -228,17 +228,23 @@ void Device::finish() const {
   }
 }
 
-StageTimes Device::take_stage_times() { return take_times(&Record::stage); }
+StageTimes Device::take_stage_times() {
+  return take_times([](const Record& record) { return record.stage; });
+}
 
-StageTimes Device::take_kernel_times() { return take_times(&Record::kernel); }
+StageTimes Device::take_kernel_times() {
+  return take_times([](const Record& record) { return record.kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(); });
+}
 
-StageTimes Device::take_times(std::string Record::*name) {
+template <class Name>
+StageTimes Device::take_times(Name name) {
+  if (records_.empty()) return {};
   finish();
   StageTimes times;
   for (const auto& record : records_) {
     const auto begin = record.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
     const auto end = record.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-    times[record.*name] += static_cast<double>(end - begin) * 1e-6;
+    times[name(record)] += static_cast<double>(end - begin) * 1e-6;
   }
   records_.clear();
   return times;

@@ -121,10 +121,11 @@ class Device {
   bool measuring_ = false;
   struct Record {
     std::string stage;
-    std::string kernel;
+    cl::Kernel kernel;
     cl::Event event;
   };
-  StageTimes take_times(std::string Record::*name);
+  template <class Name>
+  StageTimes take_times(Name name);
   std::vector<Record> records_;
 };
 

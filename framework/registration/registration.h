@@ -14,8 +14,13 @@ namespace pliant {
 /// give the same bits. Throws DataError when the pair or the graph gives too little to begin with,
 /// NumericalError when the source is not finite where the initial alignment puts it. What goes wrong later
 /// ends the loop: the result is then that of the iteration before, and `termination` and `reason` say why.
+/// The stages that run on the device are told in `time_ms` only while the device measures stages
+/// (Device::measure_stages).
 RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,
                                  std::uint64_t seed, const ProgressSink& progress = {});
+
+/// What was done otherwise than the method asks for.
+std::vector<std::string> warnings_of(const Method& method, const RegistrationResult::Counts& counts);
 
 /// The problem of the first outer iteration: source aligned, graph built, constraints matched once, nothing
 /// solved. Solvers can be compared on it.

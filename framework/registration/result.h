@@ -49,7 +49,7 @@ struct RegistrationResult {
   std::string reason;                 ///< of one of those three, in words
   std::vector<std::string> warnings;  ///< what was done otherwise than asked for
   double total_ms = 0;
-  StageTimes time_ms;
+  StageTimes time_ms;  ///< see docs/results.md
 };
 
 }  // namespace pliant

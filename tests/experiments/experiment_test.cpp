@@ -70,7 +70,7 @@ TEST_F(ExperimentTest, NamesThatCannotNameAFolderAreErrors) {
 }
 
 TEST_F(ExperimentTest, ExperimentsThatComeWithTheProjectAreGood) {
-  for (const char* name : {"sheet", "quickstart", "compare_solvers"}) {
+  for (const char* name : {"sheet", "quickstart", "compare_solvers", "edit_handles"}) {
     const ConfigSource source{std::string(PLIANT_EXPERIMENTS) + "/" + name + ".yaml", {}, {}, {}};
     const ExperimentPlan made = plan_experiment(source, registry_);
     EXPECT_EQ(made.name, name);

@@ -139,6 +139,17 @@ TEST_F(BadInputTest, OutputFolderThatCannotBeWritten) {
   EXPECT_THAT(run.errors(), ElementsAre(AllOf(HasSubstr("taken/below"), HasSubstr("cannot be made"))));
 }
 
+TEST_F(BadInputTest, HandleOutsideOfTheSurface) {
+  expect_refusal(2, "--set handles: the handle is outside of the surface", "no point at pixel (500, 3)",
+                 " --set 'handles={a: {type: pixel, at: [500, 3], radius: 5}}'");
+  write("bent.yaml", "extends: pair.yaml\nhandles:\n  a: {type: point, at: [0, 0, 300], radius: 5}\n");
+  for (const char* command : {"run bent.yaml --out out", "check bent.yaml"}) {
+    const ProgramRun run = call(command);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.errors(), ElementsAre(HasSubstr("bent.yaml:3:3: the handle holds nothing")));
+  }
+}
+
 TEST_F(BadInputTest, NoOpenClDevice) {
   const ProgramRun run = call("run pair.yaml --out out", "OCL_ICD_VENDORS=/nonexistent");
   EXPECT_EQ(run.exit_code, 4);

@@ -16,8 +16,12 @@ namespace pliant::testing {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::Contains;
 using ::testing::Each;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 class RegistrationTest : public ExperimentFiles {
@@ -244,6 +248,45 @@ TEST_F(RegistrationTest, AdaptingFitsBetterThanTheGraphItBeganWith) {
     SCOPED_TRACE(sampler);
     EXPECT_LT(residual("5", sampler), 0.7 * residual("2", sampler));
   }
+}
+
+// --- stage times ---
+
+std::vector<std::string> stages_of(const RegistrationResult& result) {
+  std::vector<std::string> stages;
+  for (const auto& [stage, time] : result.time_ms) {
+    EXPECT_GT(time, 0) << stage;
+    stages.push_back(stage);
+  }
+  return stages;
+}
+
+// AdNodes and AdCons, adapting.
+std::vector<std::string> adaptive_with(const std::string& linear_solver) {
+  return {
+      "graph={type: quadtree, initial_levels: 2, levels: 4, refine_threshold: 2, collapse_threshold: 0.1}",
+      "sampler={type: adaptive, threshold: 1}", "stopping={max_iterations: 3}", "nearest_nodes=3",
+      "solver={type: gauss_newton, linear_solver: " + linear_solver + "}"};
+}
+
+TEST_F(RegistrationTest, StagesHaveTheNamesOfFigure512) {
+  device_.measure_stages(true);
+  EXPECT_THAT(
+      stages_of(register_sheet(adaptive_with("dense_cholesky"))),
+      IsSupersetOf({"jacobian", "mm", "mv", "cholesky", "solver", "acs", "ans", "weights", "match", "warp"}));
+  // It has no matrix to factorise, and its right-hand side comes with the matrix.
+  const auto structured = stages_of(register_sheet(adaptive_with("structured")));
+  EXPECT_THAT(structured,
+              IsSupersetOf({"jacobian", "mm", "solver", "acs", "ans", "weights", "match", "warp"}));
+  EXPECT_THAT(structured, Not(Contains(AnyOf("cholesky", "mv"))));
+}
+
+TEST_F(RegistrationTest, StagesOfTheDeviceAreToldOnlyWhereItMeasures) {
+  const std::vector<std::string> sets{"stopping={max_iterations: 1}"};
+  EXPECT_THAT(stages_of(register_sheet(sets)), Not(Contains(AnyOf("match", "warp", "solver"))));
+  device_.measure_stages(true);
+  const RegistrationResult first = register_sheet(sets);
+  EXPECT_THAT(stages_of(first), IsSupersetOf({"match", "warp", "solver"}));
 }
 
 // --- rigid nodes ---
