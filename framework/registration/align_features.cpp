@@ -137,6 +137,18 @@ cv::Mat usable_pixels(const RgbdFrame& frame) {
   return usable;
 }
 
+/// The usable part of an image with what descriptors reach beyond it: detection takes as long as the image is
+/// large. It begins where the coarse levels of the scale space have their samples.
+cv::Rect part_to_search(const cv::Mat& usable) {
+  constexpr int margin = 32;
+  constexpr int coarsest_sample = 16;
+  const cv::Rect used = cv::boundingRect(usable);
+  const int left = std::max(0, used.x - margin) / coarsest_sample * coarsest_sample;
+  const int top = std::max(0, used.y - margin) / coarsest_sample * coarsest_sample;
+  return {left, top, std::min(usable.cols, used.br().x + margin) - left,
+          std::min(usable.rows, used.br().y + margin) - top};
+}
+
 Features find_features(const RgbdFrame& frame, const Camera& camera, const std::string& which) {
   if (frame.color.empty()) {
     throw DataError(fmt::format("{}: alignment `features` needs a colour image", which));
@@ -145,14 +157,17 @@ Features find_features(const RgbdFrame& frame, const Camera& camera, const std::
   const auto sift = cv::SIFT::create(0, 3, 0.01);
   std::vector<cv::KeyPoint> keypoints;
   Features features;
-  sift->detectAndCompute(to_grey(frame.color), usable_pixels(frame), keypoints, features.descriptors);
+  const cv::Mat usable = usable_pixels(frame);
+  const cv::Rect part = part_to_search(usable);
+  sift->detectAndCompute(to_grey(frame.color)(part), usable(part), keypoints, features.descriptors);
   if (keypoints.size() < 2) {
     throw DataError(
         fmt::format("{}: {} colour features with depth, too few to align", which, keypoints.size()));
   }
   for (const cv::KeyPoint& keypoint : keypoints) {
-    const float depth = frame.depth(cvRound(keypoint.pt.x), cvRound(keypoint.pt.y));
-    features.points.push_back(camera.unproject(keypoint.pt.x, keypoint.pt.y, depth));
+    const cv::Point2f at = keypoint.pt + cv::Point2f(part.tl());
+    const float depth = frame.depth(cvRound(at.x), cvRound(at.y));
+    features.points.push_back(camera.unproject(at.x, at.y, depth));
   }
   return features;
 }
