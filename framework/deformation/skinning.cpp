@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -48,29 +50,95 @@ NodeMembers members_of_nodes(const std::vector<int>& nodes, std::size_t k, std::
   return {std::move(first), std::move(points)};
 }
 
+constexpr std::size_t group_size = 16;  // GROUP in skinning.cl
+constexpr float far_away = 1e18F;       // its square is still finite
+
+/// Orders `nodes` so that each group_size of them from the first on lie together: halves of the widest
+/// extent.
+void order_by_place(const std::vector<Eigen::Vector3f>& nodes, std::vector<int>::iterator first,
+                    std::vector<int>::iterator last) {
+  const auto count = static_cast<std::size_t>(last - first);
+  if (count <= group_size) return;
+  Eigen::AlignedBox3f box;
+  for (auto node = first; node != last; ++node) box.extend(nodes[static_cast<std::size_t>(*node)]);
+  Eigen::Index axis = 0;
+  box.sizes().maxCoeff(&axis);
+  const auto place = [&](int node) { return std::pair(nodes[static_cast<std::size_t>(node)][axis], node); };
+  const std::size_t groups = (count + group_size - 1) / group_size;
+  const auto middle = first + static_cast<std::ptrdiff_t>(groups / 2 * group_size);
+  std::nth_element(first, middle, last, [&](int a, int b) { return place(a) < place(b); });
+  order_by_place(nodes, first, middle);
+  order_by_place(nodes, middle, last);
+}
+
+/// Nodes as the kernel wants them; see skinning.cl.
+struct GroupedNodes {
+  std::size_t stride = 0;
+  std::size_t box_stride = 0;
+  Array<float> rows;
+  Array<int> ids;
+  Array<float> boxes;
+};
+
+GroupedNodes group_nodes(const std::vector<Eigen::Vector3f>& nodes, std::size_t width) {
+  std::vector<int> ids(nodes.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  order_by_place(nodes, ids.begin(), ids.end());
+  const std::size_t groups = (nodes.size() + group_size - 1) / group_size;
+  const std::size_t stride = groups * group_size;
+  const std::size_t box_stride = (groups + width - 1) / width * width;
+  std::vector<float> rows(3 * stride, far_away);
+  std::vector<float> boxes(6 * box_stride, far_away);
+  for (std::size_t place = 0; place < nodes.size(); ++place) {
+    const Eigen::Vector3f& node = nodes[static_cast<std::size_t>(ids[place])];
+    const bool is_first = place % group_size == 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float value = node[static_cast<Eigen::Index>(axis)];
+      rows[axis * stride + place] = value;
+      float& low = boxes[axis * box_stride + place / group_size];
+      float& high = boxes[(3 + axis) * box_stride + place / group_size];
+      low = is_first ? value : std::min(low, value);
+      high = is_first ? value : std::max(high, value);
+    }
+  }
+  ids.resize(stride, std::numeric_limits<int>::max());
+  return {stride, box_stride, Array<float>(std::move(rows)), Array<int>(std::move(ids)),
+          Array<float>(std::move(boxes))};
+}
+
 }  // namespace
 
 Influences compute_influences(Device& device, const Array<float>& points,
                               const std::vector<Eigen::Vector3f>& nodes, int nearest) {
   const int k = checked_nearest(nodes.size(), nearest);
-  const auto width = static_cast<std::size_t>(device.width());
-  const auto stride = (nodes.size() + width - 1) / width * width;
-  constexpr float far_away = 1e18F;  // its square is still finite
-  std::vector<float> rows(3 * stride, far_away);
-  for (std::size_t j = 0; j < nodes.size(); ++j)
-    for (std::size_t axis = 0; axis < 3; ++axis) rows[axis * stride + j] = nodes[j][static_cast<int>(axis)];
-  const Array<float> node_rows(std::move(rows));
-
+  const GroupedNodes grouped = group_nodes(nodes, static_cast<std::size_t>(device.width()));
   const auto point_count = points.size() / 3;
   const auto entries = point_count * static_cast<std::size_t>(k);
   Influences influences{k, Array<int>(entries), Array<float>(entries)};
-  auto kernel = device.kernel(
-      embedded::framework_deformation_skinning_cl, "influences",
-      fmt::format("-DK={} -DHAS_NEXT={}", k, static_cast<int>(nodes.size() > static_cast<std::size_t>(k))));
+  auto kernel = device.kernel(embedded::framework_deformation_skinning_cl, "influences",
+                              fmt::format("-DK={} -DGROUP={} -DHAS_NEXT={}", k, group_size,
+                                          static_cast<int>(nodes.size() > static_cast<std::size_t>(k))));
   device.run("weights", kernel, point_count, 64, points.device(device), static_cast<cl_int>(point_count),
-             node_rows.device(device), static_cast<cl_int>(stride), influences.nodes.write_device(device),
-             influences.weights.write_device(device));
+             grouped.rows.device(device), static_cast<cl_int>(grouped.stride), grouped.ids.device(device),
+             grouped.boxes.device(device), static_cast<cl_int>(grouped.box_stride),
+             influences.nodes.write_device(device), influences.weights.write_device(device));
   return influences;
+}
+
+Influences pick_influences(const Influences& influences, const std::vector<int>& points) {
+  const auto k = static_cast<std::size_t>(influences.per_point);
+  std::vector<int> nodes;
+  std::vector<float> weights;
+  nodes.reserve(k * points.size());
+  weights.reserve(k * points.size());
+  for (const int point : points) {
+    const auto entry = static_cast<std::ptrdiff_t>(k * static_cast<std::size_t>(point));
+    const auto first_node = influences.nodes.host().begin() + entry;
+    const auto first_weight = influences.weights.host().begin() + entry;
+    nodes.insert(nodes.end(), first_node, first_node + influences.per_point);
+    weights.insert(weights.end(), first_weight, first_weight + influences.per_point);
+  }
+  return {influences.per_point, Array<int>(std::move(nodes)), Array<float>(std::move(weights))};
 }
 
 Influences compute_influences_reference(const std::vector<float>& points,

@@ -27,6 +27,9 @@ inline constexpr int max_influences = 16;
 Influences compute_influences(Device& device, const Array<float>& points,
                               const std::vector<Eigen::Vector3f>& nodes, int nearest);
 
+/// The influences of some of the points: `points` are indices of those that `influences` tells of.
+Influences pick_influences(const Influences& influences, const std::vector<int>& points);
+
 /// Plain C++ reference of compute_influences; the tests hold both together.
 Influences compute_influences_reference(const std::vector<float>& points,
                                         const std::vector<Eigen::Vector3f>& nodes, int nearest);

@@ -95,6 +95,10 @@ struct Energy {
   double weight = 1;
   ConstraintSource source = ConstraintSource::surface;  ///< of a per_constraint energy
   Loss loss = {};                                       ///< of a per_constraint energy
+
+  bool uses_features() const {
+    return stencil == Stencil::per_constraint && source == ConstraintSource::features;
+  }
 };
 
 /// Registers an energy whose parameters are its weight and, for a per_constraint one, its loss.

@@ -28,10 +28,12 @@ double cut_distance(const FramePair& pair, const Eigen::Vector3d& point, double 
 
 class AutomaticAlignment : public Alignment {
  public:
-  explicit AutomaticAlignment(const FeatureOptions& options) : options_(options) {}
+  AutomaticAlignment(const FeatureOptions& options, double near_enough)
+      : options_(options), near_enough_(near_enough) {}
 
-  AlignmentResult align(const FramePair& pair, std::uint64_t seed) const override {
+  AlignmentResult align(const FramePair& pair, std::uint64_t seed, bool wants_features) const override {
     if (pair.source.color.empty() || pair.target.color.empty()) return {};
+    if (!wants_features && cut_residual(pair, Eigen::Isometry3d::Identity()) < near_enough_) return {};
     try {
       return nearer(pair, align_by_features(pair, options_, seed));
     } catch (const DataError&) {
@@ -52,6 +54,7 @@ class AutomaticAlignment : public Alignment {
   }
 
   FeatureOptions options_;
+  double near_enough_;
 };
 
 }  // namespace
@@ -70,11 +73,18 @@ double cut_residual(const FramePair& pair, const Eigen::Isometry3d& motion, doub
 }
 
 void register_automatic_alignment(Registry& registry) {
+  std::vector<Parameter> rows = feature_rows();
+  rows.push_back(real("near_enough", 20)
+                     .unit("mm")
+                     .at_least(0)
+                     .doc("Where the source begins nearer than this to the target, features are not even "
+                          "looked for; 0: always"));
   registry.add<Alignment>(
       "automatic",
       "As `features` where there is colour and that brings the source nearer to the target; else as `none`",
-      ParameterTable(feature_rows()), [](const Parameters& parameters, const Registry&) {
-        return std::make_unique<AutomaticAlignment>(read_feature_options(parameters));
+      ParameterTable(std::move(rows)), [](const Parameters& parameters, const Registry&) {
+        return std::make_unique<AutomaticAlignment>(read_feature_options(parameters),
+                                                    parameters.real("near_enough"));
       });
 }
 

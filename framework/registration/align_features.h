@@ -27,6 +27,7 @@ PointMatches keep_deformable(const PointMatches& matches, const Eigen::Isometry3
                              double max_deformation);
 
 struct FeatureOptions {
+  double scale = 1;     ///< of the images in which features are looked for
   double ratio = 0.85;  ///< nearest over second nearest descriptor distance, at most
   int min_inliers = 8;
   double max_deformation = 120;  ///< mm; a match further from the rigid motion is no feature of the surface
@@ -35,7 +36,7 @@ struct FeatureOptions {
 
 /// Matches of colour features [SIFT, ratio test of Lowe 2004] that have depth and lie inside the masks.
 /// Throws DataError without colour or with fewer than two features in either frame.
-PointMatches match_features(const FramePair& pair, double ratio);
+PointMatches match_features(const FramePair& pair, double ratio, double scale = 1);
 
 /// Rigid motion by colour features, and the matches that go with it.
 /// Throws as match_features does.

@@ -31,7 +31,8 @@ class Alignment {
   static constexpr const char* kind = "alignment";
   virtual ~Alignment() = default;
   /// Deterministic for a given seed. Throws DataError when the pair gives too little to align.
-  virtual AlignmentResult align(const FramePair& pair, std::uint64_t seed) const = 0;
+  /// `wants_features`: an energy will use AlignmentResult::features, where the method finds any.
+  virtual AlignmentResult align(const FramePair& pair, std::uint64_t seed, bool wants_features) const = 0;
 };
 
 }  // namespace pliant

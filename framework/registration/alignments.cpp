@@ -11,7 +11,7 @@ namespace {
 
 class NoAlignment : public Alignment {
  public:
-  AlignmentResult align(const FramePair&, std::uint64_t) const override { return {}; }
+  AlignmentResult align(const FramePair&, std::uint64_t, bool) const override { return {}; }
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "framework/registration/method.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pliant {
@@ -56,6 +57,11 @@ Energy Relaxation::relaxed(Energy energy, int stage) const {
   else
     energy.weight *= std::pow(stiffness, remaining);
   return energy;
+}
+
+bool uses_features(const Method& method) {
+  return std::any_of(method.energies.begin(), method.energies.end(),
+                     [](const Energy& energy) { return energy.uses_features() && energy.weight > 0; });
 }
 
 std::vector<Parameter> method_rows() {

@@ -50,6 +50,9 @@ struct Method {
   StoppingRule stopping;
 };
 
+/// Whether any of its energies rests on matched features and counts.
+bool uses_features(const Method& method);
+
 /// The rows of an experiment file that describe a method.
 std::vector<Parameter> method_rows();
 

@@ -28,26 +28,42 @@ int is_acceptable(float3 p, float3 normal, int pixel, global const float* target
          (!has_normals || dot(normal, target_normal) >= least_cosine);
 }
 
+// The least distance between a point at depth 1 and the viewing ray of a pixel, per pixel between the two.
+float distance_per_pixel(float4 camera, int2 size) {
+  const float2 corner = fmax(camera.zw, convert_float2(size) - camera.zw) / camera.xy;
+  return 1 / (fmax(camera.x, camera.y) * sqrt(1 + dot(corner, corner)));
+}
+
 // Offset of the nearest acceptable target point at most `radius` pixels away in u and v from where p projects
-// to, the first one in row-major order on a tie; -1 where there is none.
+// to, the first one in row-major order on a tie; -1 where there is none. Searched ring by ring, until no
+// pixel further out can be nearer.
 int nearest_pixel(float3 p, float3 normal, int radius, float4 camera, int2 size,
                   global const float* target_points, global const float* target_normals, float max_distance,
                   float least_cosine) {
   if (!(p.z > 0)) return -1;
   const float2 at = round((float2)(camera.x * p.x / p.z + camera.z, camera.y * p.y / p.z + camera.w));
-  const int2 low = convert_int2(clamp(at - radius, (float2)(0), convert_float2(size)));
-  const int2 high = convert_int2(clamp(at + radius, (float2)(-1), convert_float2(size - 1)));
+  if (!(at.x + radius >= 0 && at.y + radius >= 0 && at.x - radius < size.x && at.y - radius < size.y))
+    return -1;
+  const int2 centre = convert_int2(at);
+  const float rounding = 0.999f;
+  const float per_ring = rounding * p.z * distance_per_pixel(camera, size);
   int best = -1;
-  float best_distance = INFINITY;
-  for (int v = low.y; v <= high.y; ++v)
-    for (int u = low.x; u <= high.x; ++u) {
-      const int pixel = v * size.x + u;
-      const float3 q = load_finite(pixel, target_points);
-      if (!(q.z > 0) || !(distance(p, q) < best_distance)) continue;
-      if (!is_acceptable(p, normal, pixel, target_points, target_normals, max_distance, least_cosine))
-        continue;
-      best = pixel;
-      best_distance = distance(p, q);
+  float best_distance = max_distance;
+  for (int ring = 0; ring <= radius && (ring - 0.5f) * per_ring <= best_distance; ++ring)
+    for (int v = max(centre.y - ring, 0); v <= min(centre.y + ring, size.y - 1); ++v) {
+      const int step = abs(v - centre.y) == ring ? 1 : max(2 * ring, 1);  // only the ends of inner rows
+      for (int u = centre.x - ring; u <= centre.x + ring; u += step) {
+        if (u < 0 || u >= size.x) continue;
+        const int pixel = v * size.x + u;
+        const float3 q = vload3(pixel, target_points);
+        const float away = distance(p, q);
+        const int is_nearer = away < best_distance || (away == best_distance && (best < 0 || pixel < best));
+        if (!(q.z > 0) || !is_nearer) continue;
+        if (!is_acceptable(p, normal, pixel, target_points, target_normals, max_distance, least_cosine))
+          continue;
+        best = pixel;
+        best_distance = away;
+      }
     }
   return best;
 }

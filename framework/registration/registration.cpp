@@ -44,13 +44,11 @@ void check_selection(const Scene& scene, const char* what, const std::vector<int
     throw DataError(fmt::format("{}: no {} falls on the source; choose a finer one", scene.pair.name, what));
 }
 
-std::shared_ptr<Constraints> make_constraints(Device& device, const Method& method,
-                                              const std::vector<Eigen::Vector3f>& points,
-                                              const std::vector<Eigen::Vector3f>& node_positions) {
+std::shared_ptr<Constraints> make_constraints(const std::vector<Eigen::Vector3f>& points,
+                                              Influences influences) {
   auto constraints = std::make_shared<Constraints>();
   constraints->points = flatten(points);
-  constraints->influences =
-      compute_influences(device, constraints->points, node_positions, method.nearest_nodes);
+  constraints->influences = std::move(influences);
   constraints->data = Array<float>(std::vector<float>(6 * points.size(), 0.0F));
   constraints->confidence = Array<float>(std::vector<float>(points.size(), 0.0F));
   return constraints;
@@ -69,26 +67,23 @@ std::shared_ptr<Constraints> make_feature_constraints(Device& device, const Meth
     const Eigen::Vector3f pull = (features.to[i] - point).cast<float>();
     pulls.insert(pulls.end(), {pull.x(), pull.y(), pull.z(), 0, 0, 0});
   }
-  auto constraints = make_constraints(device, method, points, node_positions);
+  auto constraints = make_constraints(
+      points, compute_influences(device, flatten(points), node_positions, method.nearest_nodes));
   constraints->data = Array<float>(std::move(pulls));
   constraints->confidence = Array<float>(std::vector<float>(points.size(), 1.0F));
   return constraints;
-}
-
-bool uses_features(const Energy& energy) {
-  return energy.stencil == Stencil::per_constraint && energy.source == ConstraintSource::features;
 }
 
 std::vector<Term> make_terms(Device& device, const Method& method, const Scene& scene,
                              const std::vector<Eigen::Vector3f>& node_positions,
                              const std::shared_ptr<Constraints>& surface, int stage) {
   std::shared_ptr<Constraints> features;
-  if (std::any_of(method.energies.begin(), method.energies.end(), uses_features))
-    features = make_feature_constraints(device, method, scene, node_positions);
+  if (uses_features(method)) features = make_feature_constraints(device, method, scene, node_positions);
   std::vector<Term> terms;
   for (const Energy& energy : method.energies) {
+    if (energy.uses_features() && features == nullptr) continue;
     std::shared_ptr<Constraints> constraints;
-    if (energy.stencil == Stencil::per_constraint) constraints = uses_features(energy) ? features : surface;
+    if (energy.stencil == Stencil::per_constraint) constraints = energy.uses_features() ? features : surface;
     terms.push_back({method.relaxation.relaxed(energy, stage), std::move(constraints)});
   }
   return terms;
@@ -113,7 +108,7 @@ Model make_model(const Scene& scene, const Method& method, Device& device, const
                  const std::vector<int>& samples, int stage) {
   check_selection(scene, "constraint", samples);
   auto constraints =
-      make_constraints(device, method, pick(scene.aligned.points, samples), skeleton.positions);
+      make_constraints(pick(scene.aligned.points, samples), pick_influences(skeleton.influences, samples));
   auto problem =
       std::make_unique<Problem>(DeformationGraph{skeleton.positions, skeleton.edges},
                                 make_terms(device, method, scene, skeleton.positions, constraints, stage),

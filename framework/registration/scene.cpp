@@ -48,7 +48,7 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   const Array<int> pixels(timed(times, "surface", [&] { return pixels_with_depth(depth); }));
   if (pixels.empty()) throw DataError(pair.name + ": the source has no point");
   const AlignmentResult alignment =
-      timed(times, "alignment", [&] { return method.alignment->align(pair, seed); });
+      timed(times, "alignment", [&] { return method.alignment->align(pair, seed, uses_features(method)); });
 
   const PointSet given = pick_points(device, map, pixels);
   PointSet rest = pick_points(device, filtered ? *filtered_map : map, pixels, alignment.motion);

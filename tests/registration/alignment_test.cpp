@@ -139,7 +139,8 @@ FramePair moved_plane() {
 std::unique_ptr<Alignment> make_features(std::int64_t min_inliers = 8) {
   Registry registry;
   register_alignments(registry);
-  return registry.make<Alignment>(Parameters("features", {{"ratio", 0.85},
+  return registry.make<Alignment>(Parameters("features", {{"scale", 1.0},
+                                                          {"ratio", 0.85},
                                                           {"iterations", std::int64_t{2000}},
                                                           {"inlier_distance", 30.0},
                                                           {"min_inliers", min_inliers},
@@ -147,11 +148,23 @@ std::unique_ptr<Alignment> make_features(std::int64_t min_inliers = 8) {
 }
 
 TEST(FeatureAlignment, FindsHowAPlaneMoved) {
-  const AlignmentResult result = make_features()->align(moved_plane(), 1);
+  const AlignmentResult result = make_features()->align(moved_plane(), 1, true);
   EXPECT_GE(result.inliers, 30);
   for (const Eigen::Vector3d& corner : {Eigen::Vector3d(-300, -200, 800), Eigen::Vector3d(300, 200, 800)}) {
     EXPECT_LT((result.motion * corner - a_motion() * corner).norm(), 2);
   }
+}
+
+TEST(FeatureAlignment, FindsFewerFeaturesOfTheSamePlacesInShrunkImages) {
+  const PointMatches whole = match_features(moved_plane(), 0.85);
+  const PointMatches half = match_features(moved_plane(), 0.85, 0.5);
+  EXPECT_GE(half.size(), 20u);
+  EXPECT_LT(half.size(), whole.size());
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < half.size(); ++i)
+    errors.push_back((a_motion() * half.from[i] - half.to[i]).norm());
+  std::nth_element(errors.begin(), errors.begin() + std::ssize(errors) / 2, errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 1) << "mm, the median; half a pixel is 1.3 mm";
 }
 
 TEST(FeatureAlignment, GivesTheMatchesThatGoWithTheMotion) {
@@ -163,8 +176,8 @@ TEST(FeatureAlignment, GivesTheMatchesThatGoWithTheMotion) {
 }
 
 TEST(FeatureAlignment, SameSeedSameBits) {
-  const AlignmentResult first = make_features()->align(moved_plane(), 5);
-  const AlignmentResult second = make_features()->align(moved_plane(), 5);
+  const AlignmentResult first = make_features()->align(moved_plane(), 5, true);
+  const AlignmentResult second = make_features()->align(moved_plane(), 5, true);
   EXPECT_EQ(first.motion.matrix(), second.motion.matrix());
   EXPECT_EQ(first.inliers, second.inliers);
 }
@@ -184,20 +197,20 @@ TEST(FeatureAlignment, UsesOnlyTheMaskAndPixelsWithDepth) {
 TEST(FeatureAlignment, NeedsColor) {
   FramePair pair = moved_plane();
   pair.target.color = {};
-  EXPECT_THAT([&] { make_features()->align(pair, 1); },
+  EXPECT_THAT([&] { make_features()->align(pair, 1, true); },
               ThrowsMessage<DataError>(AllOf(HasSubstr("plane, target"), HasSubstr("colour image"))));
 }
 
 TEST(FeatureAlignment, NeedsFeatures) {
   FramePair pair = moved_plane();
   pair.source.color = ColorImage(320, 240, Rgb{90, 90, 90});
-  EXPECT_THAT([&] { make_features()->align(pair, 1); },
+  EXPECT_THAT([&] { make_features()->align(pair, 1, true); },
               ThrowsMessage<DataError>(AllOf(HasSubstr("plane, source"), HasSubstr("0 colour features"))));
 }
 
 TEST(FeatureAlignment, NeedsInliersAndSaysHowManyThereAre) {
-  const int inliers = make_features()->align(moved_plane(), 1).inliers;
-  EXPECT_THAT([&] { make_features(inliers + 1)->align(moved_plane(), 1); },
+  const int inliers = make_features()->align(moved_plane(), 1, true).inliers;
+  EXPECT_THAT([&] { make_features(inliers + 1)->align(moved_plane(), 1, true); },
               ThrowsMessage<DataError>(AllOf(HasSubstr("plane: " + std::to_string(inliers) + " of "),
                                              HasSubstr("at least " + std::to_string(inliers + 1)))));
 }
@@ -205,13 +218,15 @@ TEST(FeatureAlignment, NeedsInliersAndSaysHowManyThereAre) {
 TEST(FeatureAlignment, RefusesUnrelatedImages) {
   FramePair pair = moved_plane();
   pair.target = render_plane(a_motion(), 77);
-  EXPECT_THROW(make_features()->align(pair, 1), DataError);
+  EXPECT_THROW(make_features()->align(pair, 1, true), DataError);
 }
 
 std::unique_ptr<Alignment> make_automatic() {
   Registry registry;
   register_alignments(registry);
-  return registry.make<Alignment>(Parameters("automatic", {{"ratio", 0.85},
+  return registry.make<Alignment>(Parameters("automatic", {{"near_enough", 20.0},
+                                                           {"scale", 1.0},
+                                                           {"ratio", 0.85},
                                                            {"iterations", std::int64_t{2000}},
                                                            {"inlier_distance", 30.0},
                                                            {"min_inliers", std::int64_t{8}},
@@ -219,9 +234,19 @@ std::unique_ptr<Alignment> make_automatic() {
 }
 
 TEST(AutomaticAlignment, MovesWhereFeaturesBringTheSourceNearer) {
-  const AlignmentResult result = make_automatic()->align(moved_plane(), 1);
-  EXPECT_EQ(result.motion.matrix(), make_features()->align(moved_plane(), 1).motion.matrix());
+  const AlignmentResult result = make_automatic()->align(moved_plane(), 1, true);
+  EXPECT_EQ(result.motion.matrix(), make_features()->align(moved_plane(), 1, true).motion.matrix());
   EXPECT_GT(result.features.size(), 10u);
+}
+
+TEST(AutomaticAlignment, LooksForNoFeaturesThatNobodyNeeds) {
+  FramePair near = moved_plane();
+  near.target = render_plane(Eigen::Isometry3d(Eigen::Translation3d(0, 0, 15)), 11);
+  EXPECT_GT(make_automatic()->align(near, 1, true).matches, 10);
+  const AlignmentResult result = make_automatic()->align(near, 1, false);
+  EXPECT_EQ(result.matches, 0);
+  EXPECT_TRUE(result.motion.matrix().isIdentity(0));
+  EXPECT_GT(make_automatic()->align(moved_plane(), 1, false).matches, 10) << "too far away to stay";
 }
 
 TEST(AutomaticAlignment, StaysWithoutColorTextureOrAgreement) {
@@ -232,7 +257,7 @@ TEST(AutomaticAlignment, StaysWithoutColorTextureOrAgreement) {
   FramePair unrelated = moved_plane();
   unrelated.target = render_plane(a_motion(), 77);
   for (const FramePair* pair : {&colorless, &plain, &unrelated}) {
-    const AlignmentResult result = make_automatic()->align(*pair, 1);
+    const AlignmentResult result = make_automatic()->align(*pair, 1, true);
     EXPECT_TRUE(result.motion.matrix().isIdentity(0));
     EXPECT_EQ(result.features.size(), 0u);
   }
@@ -243,7 +268,7 @@ TEST(AutomaticAlignment, KeepsOnlyFeaturesThatADeformationCouldHaveMadeOfWhereIt
   const auto slid = [](double distance) {
     FramePair pair = moved_plane();
     pair.target = render_plane(Eigen::Isometry3d(Eigen::Translation3d(distance, 0, 0)), 11);
-    return make_automatic()->align(pair, 1);
+    return make_automatic()->align(pair, 1, true);
   };
   const AlignmentResult near = slid(60);
   EXPECT_TRUE(near.motion.matrix().isIdentity(0));
@@ -325,7 +350,8 @@ TEST(KeepDeformable, DropsMatchesThatFlyOffTheSurface) {
 TEST(NoAlignment, LeavesTheSourceWhereItIs) {
   Registry registry;
   register_alignments(registry);
-  const AlignmentResult result = registry.make<Alignment>(Parameters("none", {}))->align(moved_plane(), 1);
+  const AlignmentResult result =
+      registry.make<Alignment>(Parameters("none", {}))->align(moved_plane(), 1, true);
   EXPECT_TRUE(result.motion.matrix().isIdentity(0));
   EXPECT_EQ(result.matches, 0);
 }
