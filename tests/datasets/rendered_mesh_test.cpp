@@ -130,6 +130,8 @@ struct FacePair {
   double nearest_mean;
 };
 
+void PrintTo(const FacePair& pair, std::ostream* out) { *out << pair.expression; }
+
 /// Their noise is not known; with this strength the distance to the target agrees on both pairs.
 class RenderedFace : public ::testing::TestWithParam<FacePair> {};
 

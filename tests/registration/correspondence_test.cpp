@@ -53,6 +53,10 @@ struct Limits {
   int search_radius;
 };
 
+void PrintTo(const Limits& limits, std::ostream* out) {
+  *out << limits.max_distance << " mm, " << limits.max_angle << " rad, " << limits.search_radius << " pixels";
+}
+
 class Projective : public ::testing::TestWithParam<Limits> {};
 
 TEST_P(Projective, TheDeviceAgreesWithTheReference) {
