@@ -54,7 +54,7 @@ std::string label(double tick, const ColorScale& scale, const Image<float>& valu
   const auto& all = values.pixels();
   const bool above = std::any_of(all.begin(), all.end(), [&](float value) { return value > scale.highest; });
   const bool below = std::any_of(all.begin(), all.end(), [&](float value) { return value < scale.lowest; });
-  const std::string number = fmt::format("{:.6g}", tick);
+  std::string number = fmt::format("{:.6g}", tick);
   if (above && tick > scale.highest - near) return "> " + number;
   if (below && tick < scale.lowest + near) return "< " + number;
   return number;

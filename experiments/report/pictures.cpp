@@ -133,7 +133,7 @@ std::vector<Eigen::Vector2d> node_pixels(const Input& input, const Eigen::Isomet
 
 template <class Result>
 std::string count_nodes(const Result& result) {
-  const std::string nodes = fmt::format("{} nodes", result.node_positions.size());
+  std::string nodes = fmt::format("{} nodes", result.node_positions.size());
   if (result.graph_cells.empty()) return nodes;
   const auto virtual_cells = std::count_if(result.graph_cells.begin(), result.graph_cells.end(),
                                            [](const GraphCell& cell) { return cell.is_virtual; });

@@ -231,8 +231,8 @@ class TreeBuilder : public YAML::EventHandler {
 
 bool is_utf8(const std::string& text) { return first_not_utf8(text) == text.size(); }
 
-std::optional<ConfigNode> read_yaml(const std::string& text, std::shared_ptr<const ConfigOrigin> origin,
-                                    ConfigErrors& errors) {
+std::optional<ConfigNode> read_yaml(const std::string& text,
+                                    const std::shared_ptr<const ConfigOrigin>& origin, ConfigErrors& errors) {
   TreeBuilder builder(text, origin, errors);
   if (const std::size_t at = first_not_utf8(text); at < text.size()) {
     YAML::Mark mark;

@@ -14,7 +14,7 @@ bool is_utf8(const std::string& text);
 /// Reads one YAML document. Anchors are expanded in place. Keys that stand twice are reported and the first
 /// one counts; when the text cannot be understood at all the result is empty. Text that would make an
 /// unreasonably large or deep tree is refused.
-std::optional<ConfigNode> read_yaml(const std::string& text, std::shared_ptr<const ConfigOrigin> origin,
-                                    ConfigErrors& errors);
+std::optional<ConfigNode> read_yaml(const std::string& text,
+                                    const std::shared_ptr<const ConfigOrigin>& origin, ConfigErrors& errors);
 
 }  // namespace pliant

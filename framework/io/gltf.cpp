@@ -209,7 +209,7 @@ class SceneReader {
   }
 
   Eigen::Vector3f to_millimetres(const Eigen::Vector3d& metres) const {
-    const Eigen::Vector3f millimetres = (metres * kMillimetresPerMetre).cast<float>();
+    Eigen::Vector3f millimetres = (metres * kMillimetresPerMetre).cast<float>();
     if (!millimetres.allFinite()) document_.fail("the transforms of its nodes carry a vertex to infinity");
     return millimetres;
   }

@@ -47,7 +47,7 @@ Header check_header(const std::vector<std::uint8_t>& bytes, const std::string& p
 // NaN where one of the components says that nothing is known.
 Eigen::Vector3f to_motion(const Eigen::Vector3f& metres, int u, int v, const std::string& path) {
   if (metres.hasNaN()) throw DataError(fmt::format("{}: NaN in ground truth at pixel ({}, {})", path, u, v));
-  const Eigen::Vector3f motion = metres * kMillimetresPerMetre;
+  Eigen::Vector3f motion = metres * kMillimetresPerMetre;
   if ((motion.array() == std::numeric_limits<float>::infinity()).any()) {
     throw DataError(fmt::format("{}: infinite motion in ground truth at pixel ({}, {})", path, u, v));
   }
