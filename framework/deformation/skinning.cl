@@ -7,10 +7,12 @@
 typedef float16 Lanes;
 #define LOAD(offset, base) vload16(0, (base) + (offset))
 #define STORE(value, address) vstore16(value, 0, address)
+#define ANY_UP_TO(a, b) any((a) <= (Lanes)(b))
 #elif WIDTH == 1
 typedef float Lanes;
 #define LOAD(offset, base) ((base)[offset])
 #define STORE(value, address) (*(address) = (value))
+#define ANY_UP_TO(a, b) ((a) <= (b))
 #else
 #error "WIDTH must be 1 or 16"
 #endif
@@ -43,9 +45,11 @@ void search_group(int group, float3 p, global const float* nodes, int stride, gl
     const Lanes dx = LOAD(first, nodes) - p.x;
     const Lanes dy = LOAD(first, nodes + stride) - p.y;
     const Lanes dz = LOAD(first, nodes + 2 * stride) - p.z;
-    float squared[WIDTH];
-    STORE(dx * dx + dy * dy + dz * dz, squared);
-    for (int lane = 0; lane < WIDTH; ++lane) insert_nearest(found, squared[lane], ids[first + lane]);
+    const Lanes squared = dx * dx + dy * dy + dz * dz;
+    if (!ANY_UP_TO(squared, found->distances[K])) continue;
+    float lanes[WIDTH];
+    STORE(squared, lanes);
+    for (int lane = 0; lane < WIDTH; ++lane) insert_nearest(found, lanes[lane], ids[first + lane]);
   }
 }
 
