@@ -2,9 +2,13 @@
 
 #include <benchmark/benchmark.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <ostream>
 #include <utility>
 #include <vector>
+
+#include "framework/core/error.h"
 
 namespace pliant::bench {
 namespace {
@@ -48,6 +52,12 @@ std::map<std::string, double> Timings::run() {
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::ClearRegisteredBenchmarks();
   return reporter.medians;
+}
+
+void write_json(const Options& options, const nlohmann::ordered_json& measured) {
+  if (options.json.empty()) return;
+  std::ofstream file(options.json);
+  if (!(file << measured.dump(2) << "\n")) throw DataError(options.json + ": cannot be written");
 }
 
 }  // namespace pliant::bench

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace pliant::bench {
@@ -27,6 +28,9 @@ class Timings {
   /// Median milliseconds of each, by name.
   std::map<std::string, double> run();
 };
+
+/// Writes what a mode measured to the file that `options` names, if any. Throws DataError when it cannot.
+void write_json(const Options& options, const nlohmann::ordered_json& measured);
 
 int run_solver_mode(const Options& options);
 int run_kernels_mode(const Options& options);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,7 +10,6 @@
 #include "benchmarks/peak.cl.embed.h"
 #include "benchmarks/sheet.h"
 #include "energies/energies.h"
-#include "framework/core/error.h"
 #include "framework/problem/solver.h"
 #include "framework/problem/structure.h"
 #include "solvers/solvers.h"
@@ -218,11 +216,7 @@ int run_kernels_mode(const Options& options) {
     if (subject.linear_solver.find(options.only) != std::string::npos)
       measure(subject, registry, device, peak, rows);
   print(rows, peak);
-  if (options.json.empty()) return 0;
-  const nlohmann::ordered_json all{
-      {"peak_gflops", peak.gflops}, {"peak_gbytes_per_s", peak.gbytes}, {"kernels", rows}};
-  std::ofstream file(options.json);
-  if (!(file << all.dump(2) << "\n")) throw DataError(options.json + ": cannot be written");
+  write_json(options, {{"peak_gflops", peak.gflops}, {"peak_gbytes_per_s", peak.gbytes}, {"kernels", rows}});
   return 0;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "experiments/runner/components.h"
 #include "experiments/runner/experiment.h"
 #include "experiments/runner/workbench.h"
-#include "framework/core/error.h"
 #include "framework/registration/metrics.h"
 #include "framework/registration/registration.h"
 #include "framework/registration/stopwatch.h"
@@ -234,9 +232,7 @@ int run_pair_mode(const Options& options) {
   auto rows = ordered_json::array();
   for (const auto& subject : subjects) rows.push_back(subject->row(times.at(subject->name)));
   print(rows);
-  if (options.json.empty()) return 0;
-  std::ofstream file(options.json);
-  if (!(file << rows.dump(2) << "\n")) throw DataError(options.json + ": cannot be written");
+  write_json(options, rows);
   return 0;
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,7 +9,6 @@
 #include "benchmarks/bench.h"
 #include "benchmarks/sheet.h"
 #include "energies/energies.h"
-#include "framework/core/error.h"
 #include "framework/problem/solver.h"
 #include "solvers/solvers.h"
 
@@ -189,9 +187,7 @@ int run_solver_mode(const Options& options) {
   auto rows = nlohmann::ordered_json::array();
   for (const auto& entry : entries) rows.push_back(row_of(entry, times));
   print(rows);
-  if (options.json.empty()) return 0;
-  std::ofstream file(options.json);
-  if (!(file << rows.dump(2) << "\n")) throw DataError(options.json + ": cannot be written");
+  write_json(options, rows);
   return 0;
 }
 

@@ -48,7 +48,7 @@ void check_energies(const Method& method, const std::string& place) {
                       ": no energy draws the surface to the handles; expected 'constraint' among "
                       "the energies");
   for (const Energy& energy : method.energies) {
-    if (is_pull(energy) && energy.source == ConstraintSource::features)
+    if (energy.uses_features())
       throw ConfigError(
           fmt::format("{}: the energy '{}' needs a target to match features with; handles have none", place,
                       energy.equation.name));

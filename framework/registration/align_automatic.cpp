@@ -33,9 +33,10 @@ class AutomaticAlignment : public Alignment {
 
   AlignmentResult align(const FramePair& pair, std::uint64_t seed, bool wants_features) const override {
     if (pair.source.color.empty() || pair.target.color.empty()) return {};
-    if (!wants_features && cut_residual(pair, Eigen::Isometry3d::Identity()) < near_enough_) return {};
+    const double residual_at_rest = cut_residual(pair, Eigen::Isometry3d::Identity());
+    if (!wants_features && residual_at_rest < near_enough_) return {};
     try {
-      return nearer(pair, align_by_features(pair, options_, seed));
+      return nearer(pair, align_by_features(pair, options_, seed), residual_at_rest);
     } catch (const DataError&) {
       return {};  // too little texture to align by
     }
@@ -43,10 +44,10 @@ class AutomaticAlignment : public Alignment {
 
  private:
   /// `found`, or no motion with the features that suit it where that lies nearer.
-  AlignmentResult nearer(const FramePair& pair, AlignmentResult found) const {
+  AlignmentResult nearer(const FramePair& pair, AlignmentResult found, double residual_at_rest) const {
     const auto stay = Eigen::Isometry3d::Identity();
     const bool is_trusted = found.inliers >= options_.min_inliers;
-    if (is_trusted && cut_residual(pair, found.motion) < cut_residual(pair, stay)) return found;
+    if (is_trusted && cut_residual(pair, found.motion) < residual_at_rest) return found;
     found.motion = stay;
     found.features =
         is_trusted ? keep_deformable(found.features, stay, options_.max_deformation) : PointMatches{};
@@ -77,8 +78,8 @@ void register_automatic_alignment(Registry& registry) {
   rows.push_back(real("near_enough", 20)
                      .unit("mm")
                      .at_least(0)
-                     .doc("Where the source begins nearer than this to the target, features are not even "
-                          "looked for; 0: always"));
+                     .doc("Where the source begins nearer than this to the target and no energy uses "
+                          "features, they are not looked for; 0: always"));
   registry.add<Alignment>(
       "automatic",
       "As `features` where there is colour and that brings the source nearer to the target; else as `none`",

@@ -21,8 +21,8 @@ std::vector<Grip> take_hold(const NamedHandles& handles, const Surface& surface)
 
 /// The points that are held, asked to go where the handles want them; of the surface there, too, its normals.
 std::shared_ptr<Constraints> make_constraints(const Surface& surface, const std::vector<Grip>& grips,
-                                              const std::vector<Eigen::Vector3f>& nodes, int nearest_nodes,
-                                              Device& device) {
+                                              const Influences& influences) {
+  std::vector<int> held;
   std::vector<Eigen::Vector3f> points;
   std::vector<float> data;
   for (const Grip& grip : grips) {
@@ -30,13 +30,14 @@ std::shared_ptr<Constraints> make_constraints(const Surface& surface, const std:
       const Eigen::Vector3f point = surface.points[static_cast<std::size_t>(index)];
       const Eigen::Vector3f pull = grip.motion * point - point;
       const Eigen::Vector3f normal = grip.motion.linear() * surface.normals[static_cast<std::size_t>(index)];
+      held.push_back(index);
       points.push_back(point);
       data.insert(data.end(), {pull.x(), pull.y(), pull.z(), normal.x(), normal.y(), normal.z()});
     }
   }
   auto constraints = std::make_shared<Constraints>();
   constraints->points = flatten(points);
-  constraints->influences = compute_influences(device, constraints->points, nodes, nearest_nodes);
+  constraints->influences = pick_influences(influences, held);
   constraints->data = Array<float>(std::move(data));
   constraints->confidence = Array<float>(std::vector<float>(points.size(), 1.0F));
   return constraints;
@@ -88,7 +89,7 @@ class Edit {
     influences_.nodes.host();  // waits here for the device: its "weights" are not the time of "edges"
     auto edges =
         timed(times_, "edges", [&] { return find_edges(influences_, static_cast<int>(positions_.size())); });
-    const auto held = make_constraints(source_, grips_, positions_, method_.nearest_nodes, device_);
+    const auto held = make_constraints(source_, grips_, influences_);
     held_ = static_cast<int>(held->size());
     std::vector<Term> terms;
     for (const Energy& energy : method_.energies)
