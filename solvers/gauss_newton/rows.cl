@@ -35,11 +35,12 @@ float3 displacement(int instance, global const int* nodes, global const float4* 
   return sum;
 }
 
-kernel void KERNEL(evaluate)(global const int* status, int count, float weight, global const float* unknowns,
-                             int first, global const int* nodes, global const float4* arms,
-                             global const float* node_points, global const float* data,
-                             global const float* confidence, int add, global float4* forces,
-                             global float8* couplings, int first_partial, global float* partials) {
+kernel void KERNEL(evaluate)(global const int* status, int count, float weight, float loss_scale,
+                             global const float* unknowns, int first, global const int* nodes,
+                             global const float4* arms, global const float* node_points,
+                             global const float* data, global const float* confidence, int add,
+                             global float4* forces, global float8* couplings, int first_partial,
+                             global float* partials) {
   const int begin = get_global_id(0) * CHUNK;
   if (status[0] || begin >= count) return;
   float energy = 0;
@@ -69,13 +70,13 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
       NAME_RESIDUAL(u, given, r);
       float sum = 0;
       for (int row = 0; row < ROWS; ++row) sum += r[row] * r[row];
-      energy += factor * LOSS_VALUE(sum);
+      energy += factor * LOSS_VALUE(sum, loss_scale);
 #if SEPARABLE
       float scale;
       NAME_ROW(given, &scale);
       force = factor * scale * (float4)(r[0], r[1], r[2], scale);
 #else
-      factor *= LOSS_WEIGHT(sum);
+      factor *= LOSS_WEIGHT(sum, loss_scale);
       float J[3 * ROWS];
       NAME_JACOBIAN(u, given, J);
       for (int row = 0; row < ROWS; ++row) {
@@ -97,9 +98,9 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
 
 #if !PER_EDGE && !SEPARABLE
 // What `step` changes the energy by, without losing the digits of a small difference.
-kernel void KERNEL(change)(global const int* status, int count, float weight, global const float* unknowns,
-                           global const float* step, int first, global const int* nodes,
-                           global const float4* arms, global const float* data,
+kernel void KERNEL(change)(global const int* status, int count, float weight, float loss_scale,
+                           global const float* unknowns, global const float* step, int first,
+                           global const int* nodes, global const float4* arms, global const float* data,
                            global const float* confidence, int first_change, global float* changes) {
   const int begin = get_global_id(0) * CHUNK;
   if (status[0] || begin >= count) return;
@@ -122,9 +123,9 @@ kernel void KERNEL(change)(global const int* status, int count, float weight, gl
     }
 #if ROBUST
     if (fabs(gain) < 0.01f * squared)
-      gain *= LOSS_WEIGHT(squared + 0.5f * gain);
+      gain *= LOSS_WEIGHT(squared + 0.5f * gain, loss_scale);
     else
-      gain = LOSS_VALUE(fmax(squared + gain, 0.0f)) - LOSS_VALUE(squared);
+      gain = LOSS_VALUE(fmax(squared + gain, 0.0f), loss_scale) - LOSS_VALUE(squared, loss_scale);
 #endif
     sum += factor * gain;
   }

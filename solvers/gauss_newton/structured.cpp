@@ -121,6 +121,7 @@ class StructuredCourse : public Course {
   }
 
   void enqueue(const cl::Buffer& status) override {
+    upload_node_weights();
     for (auto& term : row_terms_) evaluate("jacobian", term, status);
     device_.run("mm", assemble_, static_cast<std::size_t>(padded_), group, status, padded_, count_of(edges_),
                 edges_.nodes, edges_.starts, edges_.entries, edges_.arms, edges_.forces, edges_.places,
@@ -209,10 +210,6 @@ class StructuredCourse : public Course {
     constraints_.upload(device_, padded_, pattern.places[1]);
     rows_ = device_.upload(pattern.starts);
     columns_ = device_.upload(pattern.columns);
-    std::vector<float> weights;
-    for (const auto* term : node_terms_)
-      weights.push_back(static_cast<float>(problem_.effective_weight(*term)));
-    node_weights_ = device_.upload(weights);
 
     constexpr auto number = sizeof(float);
     const auto nodes = static_cast<std::size_t>(padded_);
@@ -271,6 +268,12 @@ class StructuredCourse : public Course {
                           fmt::format("-DK={}", term.kind->incidences.per_instance));
   }
 
+  void upload_node_weights() {
+    std::vector<float> weights;
+    for (const auto* term : node_terms_) weights.push_back(weight_of(*term));
+    node_weights_ = device_.upload(weights);
+  }
+
   /// What the instances' nodes and points fix once and for all.
   void make_arms() {
     const auto& node_points = problem_.node_points().device(device_);
@@ -323,8 +326,8 @@ class StructuredCourse : public Course {
     const auto& data = constraints ? constraints->data.device(device_) : node_points;
     const auto& confidence = constraints ? constraints->confidence.device(device_) : node_points;
     device_.run(stage, term.evaluate, static_cast<std::size_t>(term.partials()), 1, status, term.count,
-                weight_of(term), problem_.unknowns().device(device_), term.first, term.kind->nodes,
-                term.kind->arms, node_points, data, confidence, term.add,
+                weight_of(*term.term), loss_scale_of(term), problem_.unknowns().device(device_), term.first,
+                term.kind->nodes, term.kind->arms, node_points, data, confidence, term.add,
                 !enters_matrix(term.term->energy) ? coupled_forces_ : term.kind->forces, couplings_,
                 term.first_partial, partials_);
   }
@@ -332,13 +335,17 @@ class StructuredCourse : public Course {
   void measure_change(RowTerm& term, const cl::Buffer& status) {
     const auto& constraints = *term.term->constraints;
     device_.run("energy", term.change, static_cast<std::size_t>(term.partials()), 1, status, term.count,
-                weight_of(term), problem_.unknowns().device(device_), trial_, term.first, term.kind->nodes,
-                term.kind->arms, constraints.data.device(device_), constraints.confidence.device(device_),
-                term.first_change, changes_);
+                weight_of(*term.term), loss_scale_of(term), problem_.unknowns().device(device_), trial_,
+                term.first, term.kind->nodes, term.kind->arms, constraints.data.device(device_),
+                constraints.confidence.device(device_), term.first_change, changes_);
   }
 
-  cl_float weight_of(const RowTerm& term) const {
-    return static_cast<cl_float>(problem_.effective_weight(*term.term));
+  cl_float weight_of(const Term& term) const {
+    return static_cast<cl_float>(problem_.effective_weight(term));
+  }
+
+  static cl_float loss_scale_of(const RowTerm& term) {
+    return static_cast<cl_float>(term.term->energy.loss.scale);
   }
 
   struct ConstraintSet {
