@@ -14,7 +14,7 @@
 //
 // The course runs in one work-group of LANES work-items, whole in one kernel (`solve`) unless something has
 // to be evaluated between its steps: launches and waits would cost more than a second core gains. The order
-// of every sum is fixed.
+// of every sum is fixed. Compiled behind lanes.cl.
 
 #define ROUNDING 3.6e-15f  // the square of the relative rounding error of single precision
 
@@ -114,28 +114,6 @@ kernel void assemble(global const int* status, int padded, KIND_ARGUMENTS(edges)
 }
 
 // ------------------------------------------------------------------------------------------- vector tools
-
-// Transposes a 16x16 matrix in place.
-static inline void transpose(float16* m) {
-  float16 other[16];
-#pragma unroll
-  for (int round = 0; round < 2; ++round) {
-#pragma unroll
-    for (int i = 0; i < 8; ++i) {
-      other[2 * i].even = m[i].lo;
-      other[2 * i].odd = m[i + 8].lo;
-      other[2 * i + 1].even = m[i].hi;
-      other[2 * i + 1].odd = m[i + 8].hi;
-    }
-#pragma unroll
-    for (int i = 0; i < 8; ++i) {
-      m[2 * i].even = other[i].lo;
-      m[2 * i].odd = other[i + 8].lo;
-      m[2 * i + 1].even = other[i].hi;
-      m[2 * i + 1].odd = other[i + 8].hi;
-    }
-  }
-}
 
 // Writes a chunk node by node.
 static inline void store_rows(const float16* values, int chunk, global float16* rows) {

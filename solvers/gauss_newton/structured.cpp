@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/device/lanes.h"
 #include "framework/problem/equation_source.h"
 #include "framework/problem/structure.h"
 #include "solvers/gauss_newton/linear_solver.h"
@@ -241,10 +242,10 @@ class StructuredCourse : public Course {
 
   void make_kernels() {
     local_ = device_.info().is_gpu ? 128 : 1;
-    const auto source =
+    const std::string source = with_lanes(
         fmt::format("#define LANES {}\n#define SLOTS {}\n#define K {}\n#define COUPLED {}\n{}{}", local_,
                     max_influences, constraints_.incidences.per_instance, static_cast<int>(is_coupled()),
-                    node_terms_source(node_terms_), embedded::solvers_gauss_newton_structured_cl);
+                    node_terms_source(node_terms_), embedded::solvers_gauss_newton_structured_cl));
     const auto kernel = [&](const char* name) { return device_.kernel(source, name); };
     assemble_ = kernel("assemble");
     conclude_ = kernel("conclude");
