@@ -68,36 +68,30 @@ static inline void add_rows(int node, const int k, Kind kind, global const ushor
   }
 }
 
-// J^T r of one node: three rows.
-static inline void add_forces(int node, const int k, Kind kind, global const float4* forces,
-                              float4* gradient) {
+// J^T r of one node, as (row x, y, z, nothing), added to `gradient`.
+static inline float16 add_forces(int node, const int k, Kind kind, global const float4* forces,
+                                 float16 gradient) {
   for (int e = kind.starts[node]; e < kind.starts[node + 1]; ++e) {
-    const int instance = kind.entries[e] / SLOTS;
-    const float4 arm = kind.arms[instance * k + kind.entries[e] % SLOTS];
-    const float4 force = forces[instance];
-    gradient[0] += force.x * arm;
-    gradient[1] += force.y * arm;
-    gradient[2] += force.z * arm;
+    const uint entry = kind.entries[e];
+    const uint instance = entry / SLOTS;
+    gradient += SPREAD(forces[instance]) * TILE(kind.arms[instance * k + entry % SLOTS]);
   }
+  return gradient;
 }
 
 // What the rows of by_node move an instance by.
 static inline float3 moved_by(int instance, const int k, Kind kind, global const float16* by_node) {
-  float4 x = 0, y = 0, z = 0;
-  for (int slot = k * instance; slot < k * (instance + 1); ++slot) {
-    global const float4* rows = (global const float4*)(by_node + kind.nodes[slot]);
-    x += kind.arms[slot] * rows[0];
-    y += kind.arms[slot] * rows[1];
-    z += kind.arms[slot] * rows[2];
-  }
-  return (float3)(sum4(x), sum4(y), sum4(z));
+  float16 products = 0;
+  for (int slot = k * instance; slot < k * (instance + 1); ++slot)
+    products += TILE(kind.arms[slot]) * by_node[kind.nodes[slot]];
+  return ((products.s048c + products.s159d) + (products.s26ae + products.s37bf)).xyz;
 }
 
 // M and J^T r of all that separates: each node gathers its own in a fixed order.
 kernel void assemble(global const int* status, int padded, KIND_ARGUMENTS(edges),
                      global const ushort* places_edges, KIND_ARGUMENTS(constraints),
                      global const ushort* places_constraints, global const int* rows, global float16* M,
-                     global float4* gradient) {
+                     global float16* gradient) {
   const int node = get_global_id(0);
   if (status[0] || node >= padded) return;
   const Kind edges = KIND(edges), constraints = KIND(constraints);
@@ -107,10 +101,8 @@ kernel void assemble(global const int* status, int padded, KIND_ARGUMENTS(edges)
   add_rows(node, 2, edges, places_edges, row, &diagonal);
   add_rows(node, K, constraints, places_constraints, row, &diagonal);
   row[0] = diagonal;
-  float4 sum[3] = {0, 0, 0};
-  add_forces(node, 2, edges, edges.forces, sum);
-  add_forces(node, K, constraints, constraints.forces, sum);
-  for (int axis = 0; axis < 3; ++axis) gradient[3 * node + axis] = sum[axis];
+  const float16 sum = add_forces(node, 2, edges, edges.forces, 0);
+  gradient[node] = add_forces(node, K, constraints, constraints.forces, sum);
 }
 
 // ------------------------------------------------------------------------------------------- vector tools
@@ -223,9 +215,7 @@ kernel void assemble_coupled(global const int* status, int chunks, KIND_ARGUMENT
       sum[5] += W.s5 * square;
     }
     for (int pair = 0; pair < 6; ++pair) products[pair][n] = sum[pair];
-    float4 rows[3] = {0, 0, 0};
-    add_forces(node, K, kind, coupled_forces, rows);
-    forces[n] = (float16)(rows[0], rows[1], rows[2], (float4)(0));
+    forces[n] = add_forces(node, K, kind, coupled_forces, 0);
   }
   int pair = 0;
   for (int b = 0; b < 3; ++b)
@@ -319,11 +309,10 @@ static inline void multiply_rows(const System* s, int chunk, int first, int with
       y += entries * SPREAD(other[1]);
       z += entries * SPREAD(other[2]);
     }
-    float4 sum[3] = {fold(x), fold(y), fold(z)};
+    m[n] = (float16)(fold(x), fold(y), fold(z), (float4)(0));
 #if COUPLED
-    if (with_coupled) add_forces(16 * chunk + n, K, s->constraints, s->pulls, sum);
+    if (with_coupled) m[n] = add_forces(16 * chunk + n, K, s->constraints, s->pulls, m[n]);
 #endif
-    m[n] = (float16)(sum[0], sum[1], sum[2], (float4)(0));
   }
   transpose(m);
   for (int entry = 0; entry < 12; ++entry) result[entry] = m[entry];
@@ -521,10 +510,8 @@ float sum_gradient(const System* s, local float* scratch) {
   FOR_EACH(chunk, s->chunks) {
     float16 m[16];
     for (int n = 0; n < 16; ++n) {
-      float4 sum[3] = {0, 0, 0};
-      add_forces(16 * chunk + n, 2, s->edges, s->edges.forces, sum);
-      add_forces(16 * chunk + n, K, s->constraints, s->constraints.forces, sum);
-      m[n] = (float16)(sum[0], sum[1], sum[2], (float4)(0));
+      const float16 sum = add_forces(16 * chunk + n, 2, s->edges, s->edges.forces, 0);
+      m[n] = add_forces(16 * chunk + n, K, s->constraints, s->constraints.forces, sum);
     }
     transpose(m);
     for (int entry = 0; entry < 12; ++entry) s->gradient[12 * chunk + entry] = m[entry];
@@ -555,7 +542,7 @@ float ordered_sum(global const float* values, int count) {
 
 // `partials`: energy of edges and constraints; gets the energy per node behind them. `assembled`: gradient of
 // what separates, node by node.
-Course begin_course(const System* s, global const float* unknowns, global const float4* assembled,
+Course begin_course(const System* s, global const float* unknowns, global const float16* assembled,
                     int partial_count, global float* partials, local float* scratch) {
   FOR_EACH(chunk, s->chunks) {
     float16 m[16], g[16];
@@ -566,7 +553,7 @@ Course begin_course(const System* s, global const float* unknowns, global const 
         m[n].lo = vload8(0, unknowns + 12 * node);
         m[n].hi.lo = vload4(2, unknowns + 12 * node);
       }
-      g[n] = (float16)(assembled[3 * node], assembled[3 * node + 1], assembled[3 * node + 2], (float4)(0));
+      g[n] = assembled[node];
     }
     transpose(m);
     transpose(g);
@@ -673,7 +660,7 @@ void end_course(const System* s, const Course* course, global int* status, int p
 #if !COUPLED
 // The whole course, from `unknowns` to `unknowns`. Words of status: see StatusWord; the energies it leaves
 // are the changes that `conclude` turns into sums.
-COURSE_KERNEL solve(global int* status, SYSTEM_ARGUMENTS, global const float4* assembled, int partial_count,
+COURSE_KERNEL solve(global int* status, SYSTEM_ARGUMENTS, global const float16* assembled, int partial_count,
                     global float* partials, global float* unknowns) {
   local float scratch[LANES];
   const System s = MAKE_SYSTEM;
@@ -686,7 +673,7 @@ COURSE_KERNEL solve(global int* status, SYSTEM_ARGUMENTS, global const float4* a
 }
 #else
 // The same in pieces. While a step is in hand, `trial` holds it in the caller's order.
-COURSE_KERNEL begin(global int* status, SYSTEM_ARGUMENTS, global const float4* assembled, int partial_count,
+COURSE_KERNEL begin(global int* status, SYSTEM_ARGUMENTS, global const float16* assembled, int partial_count,
                     global float* partials, global const float* unknowns, global Course* kept) {
   local float scratch[LANES];
   const System s = MAKE_SYSTEM;

@@ -217,7 +217,7 @@ class StructuredCourse : public Course {
     matrix_ = device_.allocate(number * 16 * pattern.columns.size());
     diagonal_ = device_.allocate(number * 78 * nodes);
     factors_ = device_.allocate(number * 78 * nodes);
-    gradient_ = device_.allocate(number * 12 * nodes);
+    gradient_ = device_.allocate(number * 16 * nodes);
     vectors_ = device_.allocate(number * (7 * 12 + 16) * nodes);  // seven in chunks, one node by node
     partials_ = device_.allocate(number * static_cast<std::size_t>(partial_count_ + 1));
     allocate_coupled(nodes);
