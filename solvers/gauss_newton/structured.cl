@@ -68,15 +68,23 @@ static inline void add_rows(int node, const int k, Kind kind, global const ushor
   }
 }
 
+// Adds what an entry of a node's list contributes to its J^T r.
+static inline float16 add_force(Kind kind, const int k, uint entry, global const float4* forces,
+                                float16 sum) {
+  const uint instance = entry / SLOTS;
+  return sum + SPREAD(forces[instance]) * TILE(kind.arms[instance * k + entry % SLOTS]);
+}
+
 // J^T r of one node, as (row x, y, z, nothing), added to `gradient`.
 static inline float16 add_forces(int node, const int k, Kind kind, global const float4* forces,
                                  float16 gradient) {
-  for (int e = kind.starts[node]; e < kind.starts[node + 1]; ++e) {
-    const uint entry = kind.entries[e];
-    const uint instance = entry / SLOTS;
-    gradient += SPREAD(forces[instance]) * TILE(kind.arms[instance * k + entry % SLOTS]);
+  const int end = kind.starts[node + 1];
+  float16 others = 0;  // two sums, because one would wait for itself
+  for (int e = kind.starts[node]; e < end; e += 2) {
+    gradient = add_force(kind, k, kind.entries[e], forces, gradient);
+    if (e + 1 < end) others = add_force(kind, k, kind.entries[e + 1], forces, others);
   }
-  return gradient;
+  return gradient + others;
 }
 
 // What the rows of by_node move an instance by.
@@ -268,7 +276,7 @@ typedef struct {
   global float16* by_node;  // what is multiplied by M, node by node
   Kind edges, constraints;
 #if COUPLED
-  global const float8* couplings;  // J^T J per constraint: xx xy xz yy yz zz
+  global const float8* couplings;  // J^T J per constraint: xx xy xz yy yz zz, zeros
   global float4* pulls;            // J^T J (displacement) per constraint
   global const float16* C;         // diagonal blocks
   global const float16* coupled_gradient;
@@ -370,8 +378,7 @@ static inline void pull(const System* s) {
   FOR_EACH(instance, s->constraints.count) {
     const float8 W = s->couplings[instance];
     const float3 u = moved_by(instance, K, s->constraints, s->by_node);
-    s->pulls[instance] = (float4)(W.s0 * u.x + W.s1 * u.y + W.s2 * u.z, W.s1 * u.x + W.s3 * u.y + W.s4 * u.z,
-                                  W.s2 * u.x + W.s4 * u.y + W.s5 * u.z, 0);
+    s->pulls[instance] = W.s0127 * u.x + W.s1347 * u.y + W.s2457 * u.z;
   }
   SYNC;
 }
