@@ -656,6 +656,7 @@ void end_course(const System* s, const Course* course, global int* status, int p
     partials[partial_count] = per_node;
     status[0] = 0;
     status[2] = course->iteration;
+    status[4] = as_int(course->energy);
     status[7] = course->termination;
     status[8] = as_int(course->initial_energy);
     status[9] = course->linear_iterations;
@@ -728,10 +729,10 @@ COURSE_KERNEL end(global int* status, SYSTEM_ARGUMENTS, global const Course* kep
 }
 #endif
 
-// The final energy, summed anew, and from it the energies after each iteration: their changes are small
-// and known to many digits, sums of large numbers are not.
+// The final energy, summed anew if there are partials, and from it the energies after each iteration: their
+// changes are small and known to many digits, sums of large numbers are not.
 kernel void conclude(global int* status, int partial_count, global const float* partials) {
-  float energy = ordered_sum(partials, partial_count);
+  float energy = partial_count > 0 ? ordered_sum(partials, partial_count) : as_float(status[4]);
   status[4] = as_int(energy);
   for (int iteration = status[2] - 1; iteration >= 0; --iteration) {
     const float change = as_float(status[16 + iteration]);

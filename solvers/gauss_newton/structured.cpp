@@ -133,8 +133,11 @@ class StructuredCourse : public Course {
     else
       run_course(solve_, status, gradient_, partial_count_, partials_,
                  problem_.unknowns().write_device(device_));
-    for (auto& term : row_terms_) evaluate("energy", term, status);
-    device_.run("energy", conclude_, 1, 1, status, partial_count_ + 1, partials_);
+    // The changes of many steps hide what is left of the energy; that of one does not.
+    const bool sums_anew = options_.max_iterations > 1;
+    if (sums_anew)
+      for (auto& term : row_terms_) evaluate("energy", term, status);
+    device_.run("energy", conclude_, 1, 1, status, sums_anew ? partial_count_ + 1 : 0, partials_);
   }
 
   std::string description() const override { return "structured"; }
