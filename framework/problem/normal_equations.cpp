@@ -29,7 +29,7 @@ std::string evaluation_source(const Energy& energy) {
       "#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define KERNEL(x) "
       "x##_{1}\n{4}",
       equation_source(energy, "float"), energy.equation.name, stencil_macro(energy.stencil), energy.residuals,
-      embedded::framework_problem_evaluate_cl, loss_source(energy.loss));
+      embedded::framework_problem_evaluate_cl, loss_source(energy.loss, "float"));
 }
 
 }  // namespace

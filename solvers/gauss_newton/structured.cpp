@@ -32,14 +32,14 @@ bool enters_matrix(const Energy& energy) {
 
 std::string rows_source(const Energy& energy) {
   const auto& name = energy.equation.name;
-  return fmt::format(
+  return with_lanes(fmt::format(
       "{0}#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define NAME_ROW {1}_row\n"
       "#define KERNEL(x) x##_{1}\n#define ROWS {2}\n#define PER_EDGE {3}\n#define SEPARABLE {4}\n"
       "#define ROBUST {5}\n{6}{7}",
-      equation_source(energy, "float"), name, energy.residuals,
+      equation_source(energy, "float16"), name, energy.residuals,
       static_cast<int>(energy.stencil == Stencil::per_edge), static_cast<int>(enters_matrix(energy)),
-      static_cast<int>(energy.loss.is_robust()), loss_source(energy.loss),
-      embedded::solvers_gauss_newton_rows_cl);
+      static_cast<int>(energy.loss.is_robust()), loss_source(energy.loss, "float16"),
+      embedded::solvers_gauss_newton_rows_cl));
 }
 
 /// The functions of every term per node, and three that call them all.
@@ -284,8 +284,8 @@ class StructuredCourse : public Course {
     for (auto& term : row_terms_) {
       if (term.kind != &edges_) continue;
       auto kernel = row_kernel(term, "arms");
-      device_.run("weights", kernel, static_cast<std::size_t>(term.count), 64, node_points, term.count,
-                  edges_.nodes, term.first, edges_.arms);
+      device_.run("weights", kernel, static_cast<std::size_t>(rounded_up(term.count, lanes) / lanes), 4,
+                  node_points, term.count, edges_.nodes, term.first, edges_.arms);
     }
     for (const auto& set : sets_)
       compute_arms(device_, *set.constraints, problem_.node_points(), set.first,
