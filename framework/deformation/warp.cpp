@@ -4,17 +4,26 @@
 #include <cmath>
 
 #include "framework/deformation/warp.cl.embed.h"
+#include "framework/device/lanes.h"
 
 namespace pliant {
 
 void warp(Device& device, const PointSet& rest, const Influences& influences, const Array<float>& node_points,
           const Array<float>& affine, PointSet& moved) {
   const auto count = rest.points.size() / 3;
-  auto kernel = device.kernel(embedded::framework_deformation_warp_cl, "warp");
-  device.run("warp", kernel, count, 64, rest.points.device(device), rest.normals.device(device),
-             static_cast<cl_int>(count), influences.nodes.device(device), influences.weights.device(device),
-             static_cast<cl_int>(influences.per_point), node_points.device(device), affine.device(device),
-             moved.points.write_device(device), moved.normals.write_device(device));
+  const auto node_count = node_points.size() / 3;
+  const auto width = static_cast<std::size_t>(device.width());
+  const std::string source = with_lanes(embedded::framework_deformation_warp_cl);
+  auto make_rows = device.kernel(source, "make_rows");
+  auto kernel = device.kernel(source, "warp");
+  const cl::Buffer rows = device.allocate(16 * sizeof(float) * node_count);
+  device.run("warp", make_rows, node_count, 64, static_cast<cl_int>(node_count), node_points.device(device),
+             affine.device(device), rows);
+  device.run("warp", kernel, (count + width - 1) / width, 16, rest.points.device(device),
+             rest.normals.device(device), static_cast<cl_int>(count), influences.nodes.device(device),
+             influences.weights.device(device), static_cast<cl_int>(influences.per_point),
+             node_points.device(device), rows, moved.points.write_device(device),
+             moved.normals.write_device(device));
 }
 
 PointSet warp_reference(const PointSet& rest, const Influences& influences, const Array<float>& node_points,

@@ -1,29 +1,10 @@
 // Kernels over depth maps. A map is an image of floats in rows of `stride`, ringed by a HALO of pixels
 // without depth, so that a window around any pixel is read without a bounds check. Where there is no depth
 // stands NO_DEPTH, so far away that no neighbour within reach of a surface is ever mixed with it. Work-items
-// are written over vectors of WIDTH pixels of a row.
-
-#if WIDTH == 16
-typedef float16 Lanes;
-typedef int16 Truth;  // of a comparison, lane by lane
-#define LOAD(address) vload16(0, address)
-#define STORE(value, address) vstore16(value, 0, address)
-#define LANE_OFFSETS ((Lanes)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
-#define ANY(condition) any(condition)
-#elif WIDTH == 1
-typedef float Lanes;
-typedef int Truth;
-#define LOAD(address) (*(address))
-#define STORE(value, address) (*(address) = (value))
-#define LANE_OFFSETS 0
-#define ANY(condition) (condition)
-#else
-#error "WIDTH must be 1 or 16"
-#endif
+// are written over vectors of WIDTH pixels of a row; compiled behind lanes.cl.
 
 #define HAS_DEPTH(depth) ((depth) < (Lanes)NO_DEPTH)
 #define ANY_DEPTH(depth) ANY(HAS_DEPTH(depth))
-#define WHERE(condition, value) select((Lanes)0, value, condition)  // 0 elsewhere
 
 // --- Bilateral filter [Eq. 3.1] ---
 
@@ -69,25 +50,8 @@ kernel void bilateral(global const float* depth, int stride, int2 size, int radi
 // --- Points and normals [thesis 3.1] ---
 
 typedef struct {
-  Lanes x, y, z;
-} Vector;
-
-typedef struct {
   Lanes xx, xy, xz, yy, yz, zz;
 } Symmetric;
-
-Lanes inner(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-Vector scaled(Vector v, Lanes factor) {
-  const Vector product = {v.x * factor, v.y * factor, v.z * factor};
-  return product;
-}
-
-// `v` where the condition holds, 0 elsewhere, whatever stands there (a product would let NaN through).
-Vector only(Truth condition, Vector v) {
-  const Vector chosen = {WHERE(condition, v.x), WHERE(condition, v.y), WHERE(condition, v.z)};
-  return chosen;
-}
 
 Vector times(Symmetric a, Vector v) {
   const Vector product = {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
@@ -178,31 +142,6 @@ Vector window_normal(global const float* centre, int stride, int radius, float d
                             squares.xz - sum.x * mean.z, squares.yy - sum.y * mean.y,
                             squares.yz - sum.y * mean.z, squares.zz - sum.z * mean.z};
   return only(count >= (Lanes)FEWEST_POINTS, plane_normal(spread));
-}
-
-// x y z in turn of the first `count` of WIDTH pixels.
-void store_vectors(Vector v, int count, global float* address) {
-#if WIDTH == 16
-  if (count >= WIDTH) {
-    const Lanes x = v.x, y = v.y, z = v.z;
-    vstore16((Lanes)(x.s0, y.s0, z.s0, x.s1, y.s1, z.s1, x.s2, y.s2, z.s2, x.s3, y.s3, z.s3, x.s4, y.s4, z.s4,
-                     x.s5),
-             0, address);
-    vstore16((Lanes)(y.s5, z.s5, x.s6, y.s6, z.s6, x.s7, y.s7, z.s7, x.s8, y.s8, z.s8, x.s9, y.s9, z.s9, x.sa,
-                     y.sa),
-             1, address);
-    vstore16((Lanes)(z.sa, x.sb, y.sb, z.sb, x.sc, y.sc, z.sc, x.sd, y.sd, z.sd, x.se, y.se, z.se, x.sf, y.sf,
-                     z.sf),
-             2, address);
-    return;
-  }
-#endif
-  float x[WIDTH], y[WIDTH], z[WIDTH];
-  STORE(v.x, x);
-  STORE(v.y, y);
-  STORE(v.z, z);
-  for (int lane = 0; lane < min(count, WIDTH); ++lane)
-    vstore3((float3)(x[lane], y[lane], z[lane]), lane, address);
 }
 
 // Points and unit normals, x y z a pixel, without the halo. camera: fx, fy, cx, cy.

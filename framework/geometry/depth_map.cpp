@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "framework/device/lanes.h"
 #include "framework/geometry/depth_kernel.h"
 #include "framework/geometry/depth_map.cl.embed.h"
 
@@ -22,7 +23,7 @@ cl_float4 row_of(const Eigen::Isometry3d& motion, int row) {
 }  // namespace
 
 cl::Kernel depth_kernel(Device& device, const std::string& name) {
-  return device.kernel(embedded::framework_geometry_depth_map_cl, name,
+  return device.kernel(with_lanes(embedded::framework_geometry_depth_map_cl), name,
                        fmt::format("-DHALO={} -DNO_DEPTH={:e}f -DFEWEST_POINTS={} -DFLATTEST={:e}f",
                                    DepthMap::halo, DepthMap::no_depth, fewest_plane_points, flattest_spread));
 }

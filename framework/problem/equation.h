@@ -13,6 +13,6 @@
 // Then the fast solver `structured` needs 16 numbers where others need 144.
 //
 // All of them in the common subset of both languages: arithmetic, local arrays, loops with constant bounds;
-// no allocation, no library calls but sqrt. What u and data hold is fixed by the stencil (energy.h). Terms
-// per node are run on the device over vectors of nodes: no branches there.
+// no allocation, no library calls but sqrt. What u and data hold is fixed by the stencil (energy.h). On
+// the device they are run over vectors of instances: no branches, but `condition ? a : b` between values.
 #include "framework/device/kernel_math.h"

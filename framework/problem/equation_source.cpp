@@ -42,10 +42,11 @@ std::string transform_source(const NodeTransform& transform, int stride) {
       embedded::framework_problem_transform_cl);
 }
 
-std::string loss_source(const Loss& loss) {
+std::string loss_source(const Loss& loss, const std::string& real) {
   return fmt::format(
-      "{0}\n#define LOSS_VALUE(s) {1}_value(s, {2:.9e}f)\n#define LOSS_WEIGHT(s) {1}_weight(s, {2:.9e}f)\n",
-      as_opencl(embedded::framework_problem_loss_h, "float"), loss.name, loss.scale);
+      "{0}\n#define LOSS_VALUE(s, scale) {1}_value(s, scale)\n"
+      "#define LOSS_WEIGHT(s, scale) {1}_weight(s, scale)\n",
+      as_opencl(embedded::framework_problem_loss_h, real), loss.name);
 }
 
 }  // namespace pliant

@@ -118,9 +118,10 @@ kernel void KERNEL(energy)(global const int* status, int count, float weight, gl
 
 // Keeps per constraint what its energy is to the displaced point: W = J^T J (xx xy xz yy yz zz) and
 // g = J^T r (3).
-kernel void KERNEL(evaluate)(global const int* status, int count, float weight, global const float* affine,
-                             global const float* node_points, global const float* points, int per_point,
-                             global const int* nodes, global const float* weights, global const float* data,
+kernel void KERNEL(evaluate)(global const int* status, int count, float weight, float loss_scale,
+                             global const float* affine, global const float* node_points,
+                             global const float* points, int per_point, global const int* nodes,
+                             global const float* weights, global const float* data,
                              global const float* confidence, global float* normal) {
   const int i = get_global_id(0);
   if (status[0] || i >= count) return;
@@ -134,7 +135,7 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
   for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
   NAME_RESIDUAL(u, given, r);
   NAME_JACOBIAN(u, given, J);
-  const float factor = weight * confidence[i] * LOSS_WEIGHT(squared(r, ROWS));
+  const float factor = weight * confidence[i] * LOSS_WEIGHT(squared(r, ROWS), loss_scale);
   for (int a = 0; a < 3; ++a) {
     float sum = 0;
     for (int row = 0; row < ROWS; ++row) sum += J[3 * row + a] * r[row];
@@ -149,9 +150,10 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
     }
 }
 
-kernel void KERNEL(energy)(global const int* status, int count, float weight, global const float* affine,
-                           global const float* node_points, global const float* points, int per_point,
-                           global const int* nodes, global const float* weights, global const float* data,
+kernel void KERNEL(energy)(global const int* status, int count, float weight, float loss_scale,
+                           global const float* affine, global const float* node_points,
+                           global const float* points, int per_point, global const int* nodes,
+                           global const float* weights, global const float* data,
                            global const float* confidence, global float* partials, int first_partial) {
   const int first = get_global_id(0) * CHUNK;
   if (status[0] || first >= count) return;
@@ -162,7 +164,7 @@ kernel void KERNEL(energy)(global const int* status, int count, float weight, gl
     displacement(u, i, per_point, points, nodes, weights, node_points, affine);
     for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
     NAME_RESIDUAL(u, given, r);
-    sum += confidence[i] * LOSS_VALUE(squared(r, ROWS));
+    sum += confidence[i] * LOSS_VALUE(squared(r, ROWS), loss_scale);
   }
   partials[first_partial + get_global_id(0)] = weight * sum;
 }

@@ -29,7 +29,7 @@ std::string evaluation_source(const Energy& energy) {
       "#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define KERNEL(x) "
       "x##_{1}\n{4}",
       equation_source(energy, "float"), energy.equation.name, stencil_macro(energy.stencil), energy.residuals,
-      embedded::framework_problem_evaluate_cl, loss_source(energy.loss));
+      embedded::framework_problem_evaluate_cl, loss_source(energy.loss, "float"));
 }
 
 }  // namespace
@@ -48,7 +48,6 @@ struct NormalEquations::TermKernels {
   const Term* term;
   Kind* kind;  ///< null for a term per node
   int count;
-  float weight;
   cl::Kernel evaluate;
   cl::Kernel energy;
   cl::Kernel gather_matrix;    // mm
@@ -106,7 +105,6 @@ void NormalEquations::add_term(const Term& term) {
   made->term = &term;
   made->kind = term.energy.stencil == Stencil::per_node ? nullptr : &kind_of(term.constraints.get());
   made->count = static_cast<int>(instances);
-  made->weight = static_cast<float>(problem_->effective_weight(term));
   const auto source = evaluation_source(term.energy);
   made->evaluate = device.kernel(source, "evaluate_" + term.energy.equation.name);
   made->energy = device.kernel(source, "energy_" + term.energy.equation.name);
@@ -144,6 +142,14 @@ NormalEquations::Kind& NormalEquations::kind_of(const Constraints* constraints) 
 
 NormalEquations::~NormalEquations() = default;
 
+cl_float NormalEquations::weight_of(const TermKernels& term) const {
+  return static_cast<cl_float>(problem_->effective_weight(*term.term));
+}
+
+cl_float NormalEquations::loss_scale_of(const TermKernels& term) {
+  return static_cast<cl_float>(term.term->energy.loss.scale);
+}
+
 void NormalEquations::assemble(const cl::Buffer& status) {
   auto clear = device_->kernel(embedded::framework_problem_assembly_cl, "clear",
                                fmt::format("-DSLOTS={}", max_influences));
@@ -171,14 +177,15 @@ void NormalEquations::assemble_term(TermKernels& term, const cl::Buffer& status)
   const auto count = static_cast<std::size_t>(term.count);
   const auto nodes = static_cast<cl_int>(node_count());
   const cl_int residuals = term.term->energy.residuals;
+  const cl_float weight = weight_of(term);
   const Kind* kind = term.kind;
   switch (term.term->energy.stencil) {
     case Stencil::per_node:
-      device.run("jacobian", term.evaluate, count, group_size, status, term.count, term.weight, unknowns,
+      device.run("jacobian", term.evaluate, count, group_size, status, term.count, weight, unknowns,
                  diagonal_.device(device), blocks_, gradient_);
       break;
     case Stencil::per_edge:
-      device.run("jacobian", term.evaluate, count, group_size, status, term.count, term.weight, unknowns,
+      device.run("jacobian", term.evaluate, count, group_size, status, term.count, weight, unknowns,
                  node_points, edges_.device(device), term.rows);
       device.run("mm", term.gather_matrix, block_rows_.size(), group_size, status, block_count(), residuals,
                  kind->matrix_starts.device(device), kind->matrix_entries.device(device), term.rows, blocks_);
@@ -191,9 +198,10 @@ void NormalEquations::assemble_term(TermKernels& term, const cl::Buffer& status)
       const auto& points = constraints.points.device(device);
       const auto& weights = constraints.influences.weights.device(device);
       const cl_int k = constraints.influences.per_point;
-      device.run("jacobian", term.evaluate, count, group_size, status, term.count, term.weight, unknowns,
-                 node_points, points, k, constraints.influences.nodes.device(device), weights,
-                 constraints.data.device(device), constraints.confidence.device(device), term.rows);
+      device.run("jacobian", term.evaluate, count, group_size, status, term.count, weight,
+                 loss_scale_of(term), unknowns, node_points, points, k,
+                 constraints.influences.nodes.device(device), weights, constraints.data.device(device),
+                 constraints.confidence.device(device), term.rows);
       device.run("mm", term.gather_matrix, block_rows_.size(), group_size, status, block_count(), k,
                  kind->matrix_starts.device(device), kind->matrix_entries.device(device), term.rows,
                  kind->arms, blocks_);
@@ -210,25 +218,27 @@ void NormalEquations::sum_energy(const cl::Buffer& unknowns, const cl::Buffer& s
   const auto& node_points = problem_->node_points().device(device);
   std::size_t offset = 0;
   for (auto& term : terms_) {
+    const cl_float weight = weight_of(*term);
     const auto partials = static_cast<std::size_t>((term->count + energy_chunk - 1) / energy_chunk);
     if (partials == 0) continue;
     const auto first = static_cast<cl_int>(offset);
     switch (term->term->energy.stencil) {
       case Stencil::per_node:
-        device.run("energy", term->energy, partials, 1, status, term->count, term->weight, unknowns,
+        device.run("energy", term->energy, partials, 1, status, term->count, weight, unknowns,
                    energy_partials_, first);
         break;
       case Stencil::per_edge:
-        device.run("energy", term->energy, partials, 1, status, term->count, term->weight, unknowns,
-                   node_points, edges_.device(device), energy_partials_, first);
+        device.run("energy", term->energy, partials, 1, status, term->count, weight, unknowns, node_points,
+                   edges_.device(device), energy_partials_, first);
         break;
       case Stencil::per_constraint: {
         const auto& constraints = *term->term->constraints;
-        device.run(
-            "energy", term->energy, partials, 1, status, term->count, term->weight, unknowns, node_points,
-            constraints.points.device(device), static_cast<cl_int>(constraints.influences.per_point),
-            constraints.influences.nodes.device(device), constraints.influences.weights.device(device),
-            constraints.data.device(device), constraints.confidence.device(device), energy_partials_, first);
+        device.run("energy", term->energy, partials, 1, status, term->count, weight, loss_scale_of(*term),
+                   unknowns, node_points, constraints.points.device(device),
+                   static_cast<cl_int>(constraints.influences.per_point),
+                   constraints.influences.nodes.device(device), constraints.influences.weights.device(device),
+                   constraints.data.device(device), constraints.confidence.device(device), energy_partials_,
+                   first);
         break;
       }
     }

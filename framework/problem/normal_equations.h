@@ -12,7 +12,8 @@ namespace pliant {
 /// Kernels do nothing while word 0 of `status` is not zero, so that a finished solve costs launches only.
 class NormalEquations {
  public:
-  /// `problem` and `device` must outlive this; the problem's structure is fixed from here on.
+  /// `problem` and `device` must outlive this; the problem's structure is fixed from here on; weights,
+  /// scales, targets and confidences are taken as they are at each call.
   NormalEquations(Device& device, Problem& problem);
   ~NormalEquations();
   NormalEquations(const NormalEquations&) = delete;
@@ -45,6 +46,8 @@ class NormalEquations {
   struct Projected;
   void add_term(const Term& term);
   Kind& kind_of(const Constraints* constraints);
+  cl_float weight_of(const TermKernels& term) const;
+  static cl_float loss_scale_of(const TermKernels& term);
   void assemble_term(TermKernels& term, const cl::Buffer& status);
   void project(const cl::Buffer& status);
 

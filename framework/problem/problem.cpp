@@ -45,6 +45,17 @@ void check_constraints(const Constraints& constraints, int node_count) {
   check_repetition(constraints.influences);
 }
 
+void check_weight(const Energy& energy) {
+  if (!(energy.weight >= 0) || !std::isfinite(energy.weight))
+    throw DataError(fmt::format("the weight of energy {} is {}", energy.equation.name, energy.weight));
+}
+
+void check_loss(const Energy& energy) {
+  if (!(energy.loss.scale > 0) || !std::isfinite(energy.loss.scale))
+    throw DataError(
+        fmt::format("the scale of the loss of energy {} is {}", energy.equation.name, energy.loss.scale));
+}
+
 double squared_norm(const std::array<double, max_residuals>& r, int count) {
   double sum = 0;
   for (int i = 0; i < count; ++i) sum += r[static_cast<std::size_t>(i)] * r[static_cast<std::size_t>(i)];
@@ -84,9 +95,8 @@ Problem::Problem(DeformationGraph graph, std::vector<Term> terms, double length_
     throw DataError(fmt::format("a unit of length of {} mm", length_unit_));
   check_edges(graph_);
   for (const auto& term : terms_) {
-    if (!(term.energy.weight >= 0) || !std::isfinite(term.energy.weight))
-      throw DataError(
-          fmt::format("the weight of energy {} is {}", term.energy.equation.name, term.energy.weight));
+    check_weight(term.energy);
+    check_loss(term.energy);
     if ((term.energy.stencil == Stencil::per_constraint) != (term.constraints != nullptr))
       throw DataError(fmt::format("energy {} {} constraints", term.energy.equation.name,
                                   term.constraints ? "takes no" : "needs"));
@@ -101,6 +111,20 @@ Problem::Problem(DeformationGraph graph, std::vector<Term> terms, double length_
 void Problem::reset_to_identity() {
   auto& values = unknowns_.write_host();
   std::fill(values.begin(), values.end(), 0.0F);
+}
+
+void Problem::set_weight(std::size_t term, double weight) {
+  Energy changed = terms_.at(term).energy;
+  changed.weight = weight;
+  check_weight(changed);
+  terms_[term].energy.weight = weight;
+}
+
+void Problem::set_loss_scale(std::size_t term, double scale) {
+  Energy changed = terms_.at(term).energy;
+  changed.loss.scale = scale;
+  check_loss(changed);
+  terms_[term].energy.loss.scale = scale;
 }
 
 double Problem::effective_weight(const Term& term) const {

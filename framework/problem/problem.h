@@ -58,6 +58,12 @@ class Problem {
   const Array<float>& unknowns() const { return unknowns_; }
   void reset_to_identity();
 
+  /// How much a term counts, and the scale of its loss (unit of its residual), may change between solves:
+  /// bound solvers take them as they are at each solve. A weight of 0 leaves the term out until it is raised
+  /// again. Throws DataError for a weight that is not 0 or above and a scale that is not above 0.
+  void set_weight(std::size_t term, double weight);
+  void set_loss_scale(std::size_t term, double scale);
+
   /// The term's weight in the chosen unit of length.
   double effective_weight(const Term& term) const;
 

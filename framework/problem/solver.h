@@ -27,7 +27,7 @@ struct SolverSummary {
 };
 
 /// A solver bound to one problem, whose graph, edges and influences stay as they are. The problem's
-/// start, targets and confidences may change between solves.
+/// start, targets, confidences, weights and scales of losses may change between solves.
 class BoundSolver {
  public:
   virtual ~BoundSolver() = default;

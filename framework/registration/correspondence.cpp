@@ -5,7 +5,6 @@
 #include <memory>
 #include <numbers>
 
-#include "framework/registration/projection.cl.embed.h"
 #include "framework/registration/projection.h"
 #include "framework/registration/projective.h"
 
@@ -22,7 +21,7 @@ Vector at(const Array<float>& vectors, std::size_t index) {
 }  // namespace
 
 bool any_in_force(Device& device, const Constraints& constraints) {
-  auto kernel = device.kernel(embedded::framework_registration_projection_cl, "find_in_force");
+  auto kernel = projection_kernel(device, "find_in_force");
   Array<int> found(1);
   device.run("match", kernel, 1, 1, static_cast<cl_int>(constraints.size()),
              constraints.confidence.device(device), found.write_device(device));
@@ -36,7 +35,7 @@ ProjectiveCorrespondence::ProjectiveCorrespondence(double max_distance, double m
 
 void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, const Array<int>& selected,
                                      const Target& target, Constraints& constraints) const {
-  auto kernel = device.kernel(embedded::framework_registration_projection_cl, "match");
+  auto kernel = projection_kernel(device, "match");
   device.run("match", kernel, selected.size(), 64, static_cast<cl_int>(selected.size()),
              selected.device(device), constraints.points.device(device), moved.points.device(device),
              moved.normals.device(device), pinhole(target.camera), image_size(target.camera),

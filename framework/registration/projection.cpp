@@ -2,7 +2,14 @@
 
 #include <cmath>
 
+#include "framework/device/lanes.h"
+#include "framework/registration/projection.cl.embed.h"
+
 namespace pliant {
+
+cl::Kernel projection_kernel(Device& device, const std::string& name) {
+  return device.kernel(with_lanes(embedded::framework_registration_projection_cl), name);
+}
 
 cl_float4 pinhole(const Camera& camera) {
   return {{static_cast<float>(camera.fx), static_cast<float>(camera.fy), static_cast<float>(camera.cx),

@@ -2,10 +2,14 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include "framework/registration/target.h"
 
 namespace pliant {
+
+/// A kernel of projection.cl.
+cl::Kernel projection_kernel(Device& device, const std::string& name);
 
 /// The arguments that kernels over a target take: fx, fy, cx, cy and width, height.
 cl_float4 pinhole(const Camera& camera);

@@ -74,6 +74,11 @@ std::shared_ptr<Constraints> make_feature_constraints(Device& device, const Meth
   return constraints;
 }
 
+/// Whether an energy becomes a term of the problem.
+bool applies(const Method& method, const Energy& energy) {
+  return !energy.uses_features() || uses_features(method);
+}
+
 std::vector<Term> make_terms(Device& device, const Method& method, const Scene& scene,
                              const std::vector<Eigen::Vector3f>& node_positions,
                              const std::shared_ptr<Constraints>& surface, int stage) {
@@ -81,7 +86,7 @@ std::vector<Term> make_terms(Device& device, const Method& method, const Scene& 
   if (uses_features(method)) features = make_feature_constraints(device, method, scene, node_positions);
   std::vector<Term> terms;
   for (const Energy& energy : method.energies) {
-    if (energy.uses_features() && features == nullptr) continue;
+    if (!applies(method, energy)) continue;
     std::shared_ptr<Constraints> constraints;
     if (energy.stencil == Stencil::per_constraint) constraints = energy.uses_features() ? features : surface;
     terms.push_back({method.relaxation.relaxed(energy, stage), std::move(constraints)});
@@ -270,6 +275,18 @@ class Registration {
     return is_near(last[1]) || (residuals_.size() > 2 && *last < last[1] && is_near(last[2]));
   }
 
+  /// Weighs the terms as they count in the present stage.
+  void set_weights() {
+    std::size_t term = 0;
+    for (const Energy& energy : method_.energies) {
+      if (!applies(method_, energy)) continue;
+      const Energy relaxed = method_.relaxation.relaxed(energy, stage_);
+      model_.problem->set_weight(term, relaxed.weight);
+      model_.problem->set_loss_scale(term, relaxed.loss.scale);
+      ++term;
+    }
+  }
+
   /// Goes to the next stage of less stiffness when this one is over; whether it does.
   bool relax() {
     const Relaxation& relaxation = method_.relaxation;
@@ -277,6 +294,7 @@ class Registration {
     if (stage_ + 1 >= relaxation.stages || !is_over) return false;
     ++stage_;
     stage_began_ = iterations_;
+    set_weights();
     return true;
   }
 
@@ -287,7 +305,7 @@ class Registration {
     const bool has_new_nodes = adapt_nodes();
     if (!is_softer && !has_new_nodes && is_stuck())
       termination_ = "no_progress";
-    else if (const bool has_new_samples = adapt_samples(); is_softer || has_new_nodes || has_new_samples)
+    else if (const bool has_new_samples = adapt_samples(); has_new_nodes || has_new_samples)
       renew();
   }
 

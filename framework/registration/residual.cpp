@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "framework/registration/projection.cl.embed.h"
 #include "framework/registration/projection.h"
 
 namespace pliant {
@@ -21,9 +20,8 @@ ResidualMeter::ResidualMeter(Device& device, const Target& target, std::size_t p
       total_(device.allocate(sizeof(cl_float4))) {}
 
 Residual ResidualMeter::measure(const Array<float>& moved) {
-  constexpr auto source = embedded::framework_registration_projection_cl;
-  auto sum = device_->kernel(source, "residuals");
-  auto total = device_->kernel(source, "total_residual");
+  auto sum = projection_kernel(*device_, "residuals");
+  auto total = projection_kernel(*device_, "total_residual");
   device_->run("residual", sum, chunks_, 1, static_cast<cl_int>(moved.size() / 3), moved.device(*device_),
                pinhole(target_->camera), image_size(target_->camera), target_->points.device(*device_),
                per_point_.write_device(*device_), partials_);

@@ -1,6 +1,7 @@
 // One energy per edge or per constraint, seen as rows over slots: an instance looks at K nodes, and each of
-// its three values is sum over slots of arm . (row of the node's [D | t]). Compiled once per energy, after
-// its equation.h over float; KERNEL(x) names the kernels after the energy.
+// its three values is sum over slots of arm . (row of the node's [D | t]). Compiled once per energy, behind
+// lanes.cl and its equation.h over float16, for sixteen instances at once; KERNEL(x) names the kernels after
+// the energy.
 //
 // Of an axis-separable energy without a robust loss (SEPARABLE) `forces` keeps per instance J^T r along x, y,
 // z and J^T J (the same for each axis, 0 between them); of others `forces` keeps J^T r and `couplings` J^T J
@@ -8,126 +9,183 @@
 
 #define CHUNK 64  // instances per work-item: partial sums of the energy in order, no atomics
 
+// Instance `lane` of those from `begin` on; where there are no more before `end`, the last one again.
+#define INSTANCE(lane) min(begin + (lane), end - 1)
+
+float total(float16 v) {
+  const float8 sum = v.lo + v.hi;
+  const float4 quarter = sum.lo + sum.hi;
+  return (quarter.x + quarter.y) + (quarter.z + quarter.w);
+}
+
+// 1 for the lanes that hold an instance, else 0.
+float16 there(int begin, int end) {
+  const int16 lanes = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  return select((float16)0, (float16)1, lanes < end - begin);
+}
+
+// How forms (columns of D, then t) move the instances along x, y, z.
+void displacements(int first, int begin, int end, global const int* nodes, global const float4* arms,
+                   global const float* forms, float16* u) {
+  float16 m[16];
+  for (int lane = 0; lane < 16; ++lane) {
+    float16 sum = 0;
+    const int slots = K * (first + INSTANCE(lane));
+    for (int slot = slots; slot < slots + K; ++slot) {
+      global const float* form = forms + 12 * nodes[slot];
+      sum += arms[slot].xxxyyyzzzwwwwwww * (float16)(vload8(0, form), vload4(2, form), (float4)0);
+    }
+    m[lane] = sum;
+  }
+  transpose(m);
+  for (int axis = 0; axis < 3; ++axis) u[axis] = (m[axis] + m[3 + axis]) + (m[6 + axis] + m[9 + axis]);
+}
+
 #if PER_EDGE
+// g_to - g_from of edges.
+void load_given(int first, int begin, int end, global const int* nodes, global const float* node_points,
+                float16* given) {
+  float16 m[16];
+  for (int lane = 0; lane < 16; ++lane) {
+    const int slot = 2 * (first + INSTANCE(lane));
+    const float3 e = vload3(nodes[slot + 1], node_points) - vload3(nodes[slot], node_points);
+    m[lane] = (float16)(e, 0, (float4)0, (float8)0);
+  }
+  transpose(m);
+  for (int axis = 0; axis < 3; ++axis) given[axis] = m[axis];
+}
+
 kernel void KERNEL(arms)(global const float* node_points, int count, global const int* nodes, int first,
                          global float4* arms) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
-  const float3 e =
-      vload3(nodes[2 * (first + i) + 1], node_points) - vload3(nodes[2 * (first + i)], node_points);
-  const float data[3] = {e.x, e.y, e.z};
-  float row[8];
+  const int begin = get_global_id(0) * 16;
+  const int end = min(begin + 16, count);
+  if (begin >= count) return;
+  float16 data[3], row[16];
+  load_given(first, begin, end, nodes, node_points, data);
   NAME_ROW(data, row);
-  arms[2 * (first + i)] = vload4(0, row);
-  arms[2 * (first + i) + 1] = vload4(1, row);
+  for (int entry = 8; entry < 16; ++entry) row[entry] = 0;
+  transpose(row);
+  for (int i = begin; i < end; ++i) {
+    arms[2 * (first + i)] = row[i - begin].lo.lo;
+    arms[2 * (first + i) + 1] = row[i - begin].lo.hi;
+  }
+}
+#else
+// q - p and the normal of constraints; returns their confidence.
+float16 load_given(int begin, int end, global const float* data, global const float* confidence,
+                   float16* given) {
+  float16 m[16];
+  for (int lane = 0; lane < 16; ++lane) {
+    const int i = INSTANCE(lane);
+    global const float* own = data + 6 * i;
+    m[lane] = (float16)(vload4(0, own), vload2(2, own), confidence[i], 0, (float8)0);
+  }
+  transpose(m);
+  for (int entry = 0; entry < 6; ++entry) given[entry] = m[entry];
+  return m[6];
 }
 #endif
 
-float3 displacement(int instance, global const int* nodes, global const float4* arms,
-                    global const float* unknowns) {
-  float3 sum = 0;
-  for (int slot = K * instance; slot < K * (instance + 1); ++slot) {
-    const float4 arm = arms[slot];
-    global const float* form = unknowns + 12 * nodes[slot];
-    sum +=
-        arm.x * vload3(0, form) + arm.y * vload3(1, form) + arm.z * vload3(2, form) + arm.w * vload3(3, form);
-  }
+float16 squared(const float16* r) {
+  float16 sum = 0;
+  for (int row = 0; row < ROWS; ++row) sum += r[row] * r[row];
   return sum;
 }
 
-kernel void KERNEL(evaluate)(global const int* status, int count, float weight, global const float* unknowns,
-                             int first, global const int* nodes, global const float4* arms,
-                             global const float* node_points, global const float* data,
-                             global const float* confidence, int add, global float4* forces,
-                             global float8* couplings, int first_partial, global float* partials) {
-  const int begin = get_global_id(0) * CHUNK;
-  if (status[0] || begin >= count) return;
-  float energy = 0;
-  for (int i = begin; i < min(begin + CHUNK, count); ++i) {
-    const int instance = first + i;
-    float4 force = 0;
-    float8 coupling = 0;
-    const float3 moved = displacement(instance, nodes, arms, unknowns);
-    float r[ROWS];
+kernel void KERNEL(evaluate)(global const int* status, int count, float weight, float loss_scale,
+                             global const float* unknowns, int first, global const int* nodes,
+                             global const float4* arms, global const float* node_points,
+                             global const float* data, global const float* confidence, int add,
+                             global float4* forces, global float8* couplings, int first_partial,
+                             global float* partials) {
+  const int chunk = get_global_id(0) * CHUNK;
+  const int end = min(chunk + CHUNK, count);
+  if (status[0] || chunk >= count) return;
+  float16 energy = 0;
+  for (int begin = chunk; begin < end; begin += 16) {
+    float16 u[3], r[ROWS], out[16];  // forces, then couplings
+    displacements(first, begin, end, nodes, arms, unknowns, u);
+    for (int entry = 0; entry < 16; ++entry) out[entry] = 0;
 #if PER_EDGE
-    const float factor = weight;
-    const float3 e = vload3(nodes[2 * instance + 1], node_points) - vload3(nodes[2 * instance], node_points);
-    const float given[3] = {e.x, e.y, e.z};
-    const float rest[24] = {0};
+    float16 given[3], rest[24];
+    load_given(first, begin, end, nodes, node_points, given);
+    for (int entry = 0; entry < 24; ++entry) rest[entry] = 0;
     NAME_RESIDUAL(rest, given, r);
-    r[0] += moved.x;
-    r[1] += moved.y;
-    r[2] += moved.z;
-    force = factor * (float4)(r[0], r[1], r[2], 1);
-    energy += factor * (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    const float16 factor = weight * there(begin, end);
+    for (int axis = 0; axis < 3; ++axis) {
+      r[axis] += u[axis];
+      out[axis] = factor * r[axis];
+    }
+    out[3] = factor;
+    energy += factor * squared(r);
 #else
-    float factor = weight * confidence[i];
-    if (factor > 0) {  // else not in force: what stands in data may be anything
-      const float u[3] = {moved.x, moved.y, moved.z};
-      float given[6];
-      for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
-      NAME_RESIDUAL(u, given, r);
-      float sum = 0;
-      for (int row = 0; row < ROWS; ++row) sum += r[row] * r[row];
-      energy += factor * LOSS_VALUE(sum);
+    float16 given[6];
+    const float16 factor = weight * there(begin, end) * load_given(begin, end, data, confidence, given);
+    const int16 in_force = factor > 0;  // else what stands in data may be anything
+    NAME_RESIDUAL(u, given, r);
+    const float16 sum = squared(r);
+    energy += select((float16)0, factor * LOSS_VALUE(sum, (float16)loss_scale), in_force);
 #if SEPARABLE
-      float scale;
-      NAME_ROW(given, &scale);
-      force = factor * scale * (float4)(r[0], r[1], r[2], scale);
+    NAME_ROW(given, out + 3);
+    for (int axis = 0; axis < 3; ++axis) out[axis] = factor * out[3] * r[axis];
+    out[3] = factor * out[3] * out[3];
 #else
-      factor *= LOSS_WEIGHT(sum);
-      float J[3 * ROWS];
-      NAME_JACOBIAN(u, given, J);
-      for (int row = 0; row < ROWS; ++row) {
-        const float3 gradient = vload3(row, J);
-        force.xyz += factor * r[row] * gradient;
-        coupling +=
-            factor * (float8)(gradient.x * gradient, gradient.y * gradient.yz, gradient.z * gradient.z, 0, 0);
+    const float16 pull = factor * LOSS_WEIGHT(sum, (float16)loss_scale);
+    float16 J[3 * ROWS];
+    NAME_JACOBIAN(u, given, J);
+    for (int row = 0; row < ROWS; ++row) {
+      int entry = 4;
+      for (int a = 0; a < 3; ++a) {
+        const float16 scaled = pull * J[3 * row + a];
+        out[a] += scaled * r[row];
+        for (int b = a; b < 3; ++b) out[entry++] += scaled * J[3 * row + b];
       }
-#endif
     }
 #endif
-    forces[instance] = add ? forces[instance] + force : force;
-#if !PER_EDGE && !SEPARABLE
-    couplings[instance] = add ? couplings[instance] + coupling : coupling;
+    for (int entry = 0; entry < 10; ++entry) out[entry] = select((float16)0, out[entry], in_force);
 #endif
+    transpose(out);
+    for (int i = begin; i < min(begin + 16, end); ++i) {
+      const float16 own = out[i - begin];
+      forces[first + i] = add ? forces[first + i] + own.lo.lo : own.lo.lo;
+#if !PER_EDGE && !SEPARABLE
+      const float8 coupling = own.s456789ab;
+      couplings[first + i] = add ? couplings[first + i] + coupling : coupling;
+#endif
+    }
   }
-  partials[first_partial + get_global_id(0)] = energy;
+  partials[first_partial + get_global_id(0)] = total(energy);
 }
 
 #if !PER_EDGE && !SEPARABLE
 // What `step` changes the energy by, without losing the digits of a small difference.
-kernel void KERNEL(change)(global const int* status, int count, float weight, global const float* unknowns,
-                           global const float* step, int first, global const int* nodes,
-                           global const float4* arms, global const float* data,
+kernel void KERNEL(change)(global const int* status, int count, float weight, float loss_scale,
+                           global const float* unknowns, global const float* step, int first,
+                           global const int* nodes, global const float4* arms, global const float* data,
                            global const float* confidence, int first_change, global float* changes) {
-  const int begin = get_global_id(0) * CHUNK;
-  if (status[0] || begin >= count) return;
-  float sum = 0;
-  for (int i = begin; i < min(begin + CHUNK, count); ++i) {
-    const float factor = weight * confidence[i];
-    if (!(factor > 0)) continue;
-    const float3 moved = displacement(first + i, nodes, arms, unknowns);
-    const float3 way = displacement(first + i, nodes, arms, step);
-    const float u[3] = {moved.x, moved.y, moved.z};
-    const float v[3] = {moved.x + way.x, moved.y + way.y, moved.z + way.z};
-    float given[6], before[ROWS], after[ROWS];
-    for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
+  const int chunk = get_global_id(0) * CHUNK;
+  const int end = min(chunk + CHUNK, count);
+  if (status[0] || chunk >= count) return;
+  float16 sum = 0;
+  for (int begin = chunk; begin < end; begin += 16) {
+    float16 u[3], v[3], given[6], before[ROWS], after[ROWS];
+    const float16 factor = weight * there(begin, end) * load_given(begin, end, data, confidence, given);
+    displacements(first, begin, end, nodes, arms, unknowns, u);
+    displacements(first, begin, end, nodes, arms, step, v);
+    for (int axis = 0; axis < 3; ++axis) v[axis] += u[axis];
     NAME_RESIDUAL(u, given, before);
     NAME_RESIDUAL(v, given, after);
-    float squared = 0, gain = 0;
-    for (int row = 0; row < ROWS; ++row) {
-      squared += before[row] * before[row];
-      gain += (after[row] - before[row]) * (after[row] + before[row]);
-    }
+    float16 gain = 0;
+    for (int row = 0; row < ROWS; ++row) gain += (after[row] - before[row]) * (after[row] + before[row]);
 #if ROBUST
-    if (fabs(gain) < 0.01f * squared)
-      gain *= LOSS_WEIGHT(squared + 0.5f * gain);
-    else
-      gain = LOSS_VALUE(fmax(squared + gain, 0.0f)) - LOSS_VALUE(squared);
+    const float16 scale = loss_scale;
+    const float16 start = squared(before);
+    const float16 slope = gain * LOSS_WEIGHT(start + 0.5f * gain, scale);
+    const float16 difference = LOSS_VALUE(fmax(start + gain, (float16)0), scale) - LOSS_VALUE(start, scale);
+    gain = select(difference, slope, fabs(gain) < 0.01f * start);
 #endif
-    sum += factor * gain;
+    sum += select((float16)0, factor * gain, factor > 0);
   }
-  changes[first_change + get_global_id(0)] = sum;
+  changes[first_change + get_global_id(0)] = total(sum);
 }
 #endif

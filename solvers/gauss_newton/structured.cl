@@ -14,7 +14,7 @@
 //
 // The course runs in one work-group of LANES work-items, whole in one kernel (`solve`) unless something has
 // to be evaluated between its steps: launches and waits would cost more than a second core gains. The order
-// of every sum is fixed.
+// of every sum is fixed. Compiled behind lanes.cl.
 
 #define ROUNDING 3.6e-15f  // the square of the relative rounding error of single precision
 
@@ -68,36 +68,38 @@ static inline void add_rows(int node, const int k, Kind kind, global const ushor
   }
 }
 
-// J^T r of one node: three rows.
-static inline void add_forces(int node, const int k, Kind kind, global const float4* forces,
-                              float4* gradient) {
-  for (int e = kind.starts[node]; e < kind.starts[node + 1]; ++e) {
-    const int instance = kind.entries[e] / SLOTS;
-    const float4 arm = kind.arms[instance * k + kind.entries[e] % SLOTS];
-    const float4 force = forces[instance];
-    gradient[0] += force.x * arm;
-    gradient[1] += force.y * arm;
-    gradient[2] += force.z * arm;
+// Adds what an entry of a node's list contributes to its J^T r.
+static inline float16 add_force(Kind kind, const int k, uint entry, global const float4* forces,
+                                float16 sum) {
+  const uint instance = entry / SLOTS;
+  return sum + SPREAD(forces[instance]) * TILE(kind.arms[instance * k + entry % SLOTS]);
+}
+
+// J^T r of one node, as (row x, y, z, nothing), added to `gradient`.
+static inline float16 add_forces(int node, const int k, Kind kind, global const float4* forces,
+                                 float16 gradient) {
+  const int end = kind.starts[node + 1];
+  float16 others = 0;  // two sums, because one would wait for itself
+  for (int e = kind.starts[node]; e < end; e += 2) {
+    gradient = add_force(kind, k, kind.entries[e], forces, gradient);
+    if (e + 1 < end) others = add_force(kind, k, kind.entries[e + 1], forces, others);
   }
+  return gradient + others;
 }
 
 // What the rows of by_node move an instance by.
 static inline float3 moved_by(int instance, const int k, Kind kind, global const float16* by_node) {
-  float4 x = 0, y = 0, z = 0;
-  for (int slot = k * instance; slot < k * (instance + 1); ++slot) {
-    global const float4* rows = (global const float4*)(by_node + kind.nodes[slot]);
-    x += kind.arms[slot] * rows[0];
-    y += kind.arms[slot] * rows[1];
-    z += kind.arms[slot] * rows[2];
-  }
-  return (float3)(sum4(x), sum4(y), sum4(z));
+  float16 products = 0;
+  for (int slot = k * instance; slot < k * (instance + 1); ++slot)
+    products += TILE(kind.arms[slot]) * by_node[kind.nodes[slot]];
+  return ((products.s048c + products.s159d) + (products.s26ae + products.s37bf)).xyz;
 }
 
 // M and J^T r of all that separates: each node gathers its own in a fixed order.
 kernel void assemble(global const int* status, int padded, KIND_ARGUMENTS(edges),
                      global const ushort* places_edges, KIND_ARGUMENTS(constraints),
                      global const ushort* places_constraints, global const int* rows, global float16* M,
-                     global float4* gradient) {
+                     global float16* gradient) {
   const int node = get_global_id(0);
   if (status[0] || node >= padded) return;
   const Kind edges = KIND(edges), constraints = KIND(constraints);
@@ -107,35 +109,11 @@ kernel void assemble(global const int* status, int padded, KIND_ARGUMENTS(edges)
   add_rows(node, 2, edges, places_edges, row, &diagonal);
   add_rows(node, K, constraints, places_constraints, row, &diagonal);
   row[0] = diagonal;
-  float4 sum[3] = {0, 0, 0};
-  add_forces(node, 2, edges, edges.forces, sum);
-  add_forces(node, K, constraints, constraints.forces, sum);
-  for (int axis = 0; axis < 3; ++axis) gradient[3 * node + axis] = sum[axis];
+  const float16 sum = add_forces(node, 2, edges, edges.forces, 0);
+  gradient[node] = add_forces(node, K, constraints, constraints.forces, sum);
 }
 
 // ------------------------------------------------------------------------------------------- vector tools
-
-// Transposes a 16x16 matrix in place.
-static inline void transpose(float16* m) {
-  float16 other[16];
-#pragma unroll
-  for (int round = 0; round < 2; ++round) {
-#pragma unroll
-    for (int i = 0; i < 8; ++i) {
-      other[2 * i].even = m[i].lo;
-      other[2 * i].odd = m[i + 8].lo;
-      other[2 * i + 1].even = m[i].hi;
-      other[2 * i + 1].odd = m[i + 8].hi;
-    }
-#pragma unroll
-    for (int i = 0; i < 8; ++i) {
-      m[2 * i].even = other[i].lo;
-      m[2 * i].odd = other[i + 8].lo;
-      m[2 * i + 1].even = other[i].hi;
-      m[2 * i + 1].odd = other[i + 8].hi;
-    }
-  }
-}
 
 // Writes a chunk node by node.
 static inline void store_rows(const float16* values, int chunk, global float16* rows) {
@@ -245,9 +223,7 @@ kernel void assemble_coupled(global const int* status, int chunks, KIND_ARGUMENT
       sum[5] += W.s5 * square;
     }
     for (int pair = 0; pair < 6; ++pair) products[pair][n] = sum[pair];
-    float4 rows[3] = {0, 0, 0};
-    add_forces(node, K, kind, coupled_forces, rows);
-    forces[n] = (float16)(rows[0], rows[1], rows[2], (float4)(0));
+    forces[n] = add_forces(node, K, kind, coupled_forces, 0);
   }
   int pair = 0;
   for (int b = 0; b < 3; ++b)
@@ -300,7 +276,7 @@ typedef struct {
   global float16* by_node;  // what is multiplied by M, node by node
   Kind edges, constraints;
 #if COUPLED
-  global const float8* couplings;  // J^T J per constraint: xx xy xz yy yz zz
+  global const float8* couplings;  // J^T J per constraint: xx xy xz yy yz zz, zeros
   global float4* pulls;            // J^T J (displacement) per constraint
   global const float16* C;         // diagonal blocks
   global const float16* coupled_gradient;
@@ -341,11 +317,10 @@ static inline void multiply_rows(const System* s, int chunk, int first, int with
       y += entries * SPREAD(other[1]);
       z += entries * SPREAD(other[2]);
     }
-    float4 sum[3] = {fold(x), fold(y), fold(z)};
+    m[n] = (float16)(fold(x), fold(y), fold(z), (float4)(0));
 #if COUPLED
-    if (with_coupled) add_forces(16 * chunk + n, K, s->constraints, s->pulls, sum);
+    if (with_coupled) m[n] = add_forces(16 * chunk + n, K, s->constraints, s->pulls, m[n]);
 #endif
-    m[n] = (float16)(sum[0], sum[1], sum[2], (float4)(0));
   }
   transpose(m);
   for (int entry = 0; entry < 12; ++entry) result[entry] = m[entry];
@@ -403,8 +378,7 @@ static inline void pull(const System* s) {
   FOR_EACH(instance, s->constraints.count) {
     const float8 W = s->couplings[instance];
     const float3 u = moved_by(instance, K, s->constraints, s->by_node);
-    s->pulls[instance] = (float4)(W.s0 * u.x + W.s1 * u.y + W.s2 * u.z, W.s1 * u.x + W.s3 * u.y + W.s4 * u.z,
-                                  W.s2 * u.x + W.s4 * u.y + W.s5 * u.z, 0);
+    s->pulls[instance] = W.s0127 * u.x + W.s1347 * u.y + W.s2457 * u.z;
   }
   SYNC;
 }
@@ -543,10 +517,8 @@ float sum_gradient(const System* s, local float* scratch) {
   FOR_EACH(chunk, s->chunks) {
     float16 m[16];
     for (int n = 0; n < 16; ++n) {
-      float4 sum[3] = {0, 0, 0};
-      add_forces(16 * chunk + n, 2, s->edges, s->edges.forces, sum);
-      add_forces(16 * chunk + n, K, s->constraints, s->constraints.forces, sum);
-      m[n] = (float16)(sum[0], sum[1], sum[2], (float4)(0));
+      const float16 sum = add_forces(16 * chunk + n, 2, s->edges, s->edges.forces, 0);
+      m[n] = add_forces(16 * chunk + n, K, s->constraints, s->constraints.forces, sum);
     }
     transpose(m);
     for (int entry = 0; entry < 12; ++entry) s->gradient[12 * chunk + entry] = m[entry];
@@ -577,7 +549,7 @@ float ordered_sum(global const float* values, int count) {
 
 // `partials`: energy of edges and constraints; gets the energy per node behind them. `assembled`: gradient of
 // what separates, node by node.
-Course begin_course(const System* s, global const float* unknowns, global const float4* assembled,
+Course begin_course(const System* s, global const float* unknowns, global const float16* assembled,
                     int partial_count, global float* partials, local float* scratch) {
   FOR_EACH(chunk, s->chunks) {
     float16 m[16], g[16];
@@ -588,7 +560,7 @@ Course begin_course(const System* s, global const float* unknowns, global const 
         m[n].lo = vload8(0, unknowns + 12 * node);
         m[n].hi.lo = vload4(2, unknowns + 12 * node);
       }
-      g[n] = (float16)(assembled[3 * node], assembled[3 * node + 1], assembled[3 * node + 2], (float4)(0));
+      g[n] = assembled[node];
     }
     transpose(m);
     transpose(g);
@@ -684,6 +656,7 @@ void end_course(const System* s, const Course* course, global int* status, int p
     partials[partial_count] = per_node;
     status[0] = 0;
     status[2] = course->iteration;
+    status[4] = as_int(course->energy);
     status[7] = course->termination;
     status[8] = as_int(course->initial_energy);
     status[9] = course->linear_iterations;
@@ -695,7 +668,7 @@ void end_course(const System* s, const Course* course, global int* status, int p
 #if !COUPLED
 // The whole course, from `unknowns` to `unknowns`. Words of status: see StatusWord; the energies it leaves
 // are the changes that `conclude` turns into sums.
-COURSE_KERNEL solve(global int* status, SYSTEM_ARGUMENTS, global const float4* assembled, int partial_count,
+COURSE_KERNEL solve(global int* status, SYSTEM_ARGUMENTS, global const float16* assembled, int partial_count,
                     global float* partials, global float* unknowns) {
   local float scratch[LANES];
   const System s = MAKE_SYSTEM;
@@ -708,7 +681,7 @@ COURSE_KERNEL solve(global int* status, SYSTEM_ARGUMENTS, global const float4* a
 }
 #else
 // The same in pieces. While a step is in hand, `trial` holds it in the caller's order.
-COURSE_KERNEL begin(global int* status, SYSTEM_ARGUMENTS, global const float4* assembled, int partial_count,
+COURSE_KERNEL begin(global int* status, SYSTEM_ARGUMENTS, global const float16* assembled, int partial_count,
                     global float* partials, global const float* unknowns, global Course* kept) {
   local float scratch[LANES];
   const System s = MAKE_SYSTEM;
@@ -756,10 +729,10 @@ COURSE_KERNEL end(global int* status, SYSTEM_ARGUMENTS, global const Course* kep
 }
 #endif
 
-// The final energy, summed anew, and from it the energies after each iteration: their changes are small
-// and known to many digits, sums of large numbers are not.
+// The final energy, summed anew if there are partials, and from it the energies after each iteration: their
+// changes are small and known to many digits, sums of large numbers are not.
 kernel void conclude(global int* status, int partial_count, global const float* partials) {
-  float energy = ordered_sum(partials, partial_count);
+  float energy = partial_count > 0 ? ordered_sum(partials, partial_count) : as_float(status[4]);
   status[4] = as_int(energy);
   for (int iteration = status[2] - 1; iteration >= 0; --iteration) {
     const float change = as_float(status[16 + iteration]);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/device/lanes.h"
 #include "framework/problem/equation_source.h"
 #include "framework/problem/structure.h"
 #include "solvers/gauss_newton/linear_solver.h"
@@ -31,14 +32,14 @@ bool enters_matrix(const Energy& energy) {
 
 std::string rows_source(const Energy& energy) {
   const auto& name = energy.equation.name;
-  return fmt::format(
+  return with_lanes(fmt::format(
       "{0}#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define NAME_ROW {1}_row\n"
       "#define KERNEL(x) x##_{1}\n#define ROWS {2}\n#define PER_EDGE {3}\n#define SEPARABLE {4}\n"
       "#define ROBUST {5}\n{6}{7}",
-      equation_source(energy, "float"), name, energy.residuals,
+      equation_source(energy, "float16"), name, energy.residuals,
       static_cast<int>(energy.stencil == Stencil::per_edge), static_cast<int>(enters_matrix(energy)),
-      static_cast<int>(energy.loss.is_robust()), loss_source(energy.loss),
-      embedded::solvers_gauss_newton_rows_cl);
+      static_cast<int>(energy.loss.is_robust()), loss_source(energy.loss, "float16"),
+      embedded::solvers_gauss_newton_rows_cl));
 }
 
 /// The functions of every term per node, and three that call them all.
@@ -121,6 +122,7 @@ class StructuredCourse : public Course {
   }
 
   void enqueue(const cl::Buffer& status) override {
+    upload_node_weights();
     for (auto& term : row_terms_) evaluate("jacobian", term, status);
     device_.run("mm", assemble_, static_cast<std::size_t>(padded_), group, status, padded_, count_of(edges_),
                 edges_.nodes, edges_.starts, edges_.entries, edges_.arms, edges_.forces, edges_.places,
@@ -131,8 +133,11 @@ class StructuredCourse : public Course {
     else
       run_course(solve_, status, gradient_, partial_count_, partials_,
                  problem_.unknowns().write_device(device_));
-    for (auto& term : row_terms_) evaluate("energy", term, status);
-    device_.run("energy", conclude_, 1, 1, status, partial_count_ + 1, partials_);
+    // The changes of many steps hide what is left of the energy; that of one does not.
+    const bool sums_anew = options_.max_iterations > 1;
+    if (sums_anew)
+      for (auto& term : row_terms_) evaluate("energy", term, status);
+    device_.run("energy", conclude_, 1, 1, status, sums_anew ? partial_count_ + 1 : 0, partials_);
   }
 
   std::string description() const override { return "structured"; }
@@ -209,17 +214,13 @@ class StructuredCourse : public Course {
     constraints_.upload(device_, padded_, pattern.places[1]);
     rows_ = device_.upload(pattern.starts);
     columns_ = device_.upload(pattern.columns);
-    std::vector<float> weights;
-    for (const auto* term : node_terms_)
-      weights.push_back(static_cast<float>(problem_.effective_weight(*term)));
-    node_weights_ = device_.upload(weights);
 
     constexpr auto number = sizeof(float);
     const auto nodes = static_cast<std::size_t>(padded_);
     matrix_ = device_.allocate(number * 16 * pattern.columns.size());
     diagonal_ = device_.allocate(number * 78 * nodes);
     factors_ = device_.allocate(number * 78 * nodes);
-    gradient_ = device_.allocate(number * 12 * nodes);
+    gradient_ = device_.allocate(number * 16 * nodes);
     vectors_ = device_.allocate(number * (7 * 12 + 16) * nodes);  // seven in chunks, one node by node
     partials_ = device_.allocate(number * static_cast<std::size_t>(partial_count_ + 1));
     allocate_coupled(nodes);
@@ -244,10 +245,10 @@ class StructuredCourse : public Course {
 
   void make_kernels() {
     local_ = device_.info().is_gpu ? 128 : 1;
-    const auto source =
+    const std::string source = with_lanes(
         fmt::format("#define LANES {}\n#define SLOTS {}\n#define K {}\n#define COUPLED {}\n{}{}", local_,
                     max_influences, constraints_.incidences.per_instance, static_cast<int>(is_coupled()),
-                    node_terms_source(node_terms_), embedded::solvers_gauss_newton_structured_cl);
+                    node_terms_source(node_terms_), embedded::solvers_gauss_newton_structured_cl));
     const auto kernel = [&](const char* name) { return device_.kernel(source, name); };
     assemble_ = kernel("assemble");
     conclude_ = kernel("conclude");
@@ -271,14 +272,20 @@ class StructuredCourse : public Course {
                           fmt::format("-DK={}", term.kind->incidences.per_instance));
   }
 
+  void upload_node_weights() {
+    std::vector<float> weights;
+    for (const auto* term : node_terms_) weights.push_back(weight_of(*term));
+    node_weights_ = device_.upload(weights);
+  }
+
   /// What the instances' nodes and points fix once and for all.
   void make_arms() {
     const auto& node_points = problem_.node_points().device(device_);
     for (auto& term : row_terms_) {
       if (term.kind != &edges_) continue;
       auto kernel = row_kernel(term, "arms");
-      device_.run("weights", kernel, static_cast<std::size_t>(term.count), 64, node_points, term.count,
-                  edges_.nodes, term.first, edges_.arms);
+      device_.run("weights", kernel, static_cast<std::size_t>(rounded_up(term.count, lanes) / lanes), 4,
+                  node_points, term.count, edges_.nodes, term.first, edges_.arms);
     }
     for (const auto& set : sets_)
       compute_arms(device_, *set.constraints, problem_.node_points(), set.first,
@@ -323,8 +330,8 @@ class StructuredCourse : public Course {
     const auto& data = constraints ? constraints->data.device(device_) : node_points;
     const auto& confidence = constraints ? constraints->confidence.device(device_) : node_points;
     device_.run(stage, term.evaluate, static_cast<std::size_t>(term.partials()), 1, status, term.count,
-                weight_of(term), problem_.unknowns().device(device_), term.first, term.kind->nodes,
-                term.kind->arms, node_points, data, confidence, term.add,
+                weight_of(*term.term), loss_scale_of(term), problem_.unknowns().device(device_), term.first,
+                term.kind->nodes, term.kind->arms, node_points, data, confidence, term.add,
                 !enters_matrix(term.term->energy) ? coupled_forces_ : term.kind->forces, couplings_,
                 term.first_partial, partials_);
   }
@@ -332,13 +339,17 @@ class StructuredCourse : public Course {
   void measure_change(RowTerm& term, const cl::Buffer& status) {
     const auto& constraints = *term.term->constraints;
     device_.run("energy", term.change, static_cast<std::size_t>(term.partials()), 1, status, term.count,
-                weight_of(term), problem_.unknowns().device(device_), trial_, term.first, term.kind->nodes,
-                term.kind->arms, constraints.data.device(device_), constraints.confidence.device(device_),
-                term.first_change, changes_);
+                weight_of(*term.term), loss_scale_of(term), problem_.unknowns().device(device_), trial_,
+                term.first, term.kind->nodes, term.kind->arms, constraints.data.device(device_),
+                constraints.confidence.device(device_), term.first_change, changes_);
   }
 
-  cl_float weight_of(const RowTerm& term) const {
-    return static_cast<cl_float>(problem_.effective_weight(*term.term));
+  cl_float weight_of(const Term& term) const {
+    return static_cast<cl_float>(problem_.effective_weight(term));
+  }
+
+  static cl_float loss_scale_of(const RowTerm& term) {
+    return static_cast<cl_float>(term.term->energy.loss.scale);
   }
 
   struct ConstraintSet {

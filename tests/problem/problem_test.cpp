@@ -113,6 +113,31 @@ TEST_F(ProblemTest, TheUnitOfLengthDividesTheSquaresOfLengthsOnly) {
   EXPECT_DOUBLE_EQ(metres.effective_weight(terms[2]), 1e-4);
 }
 
+TEST_F(ProblemTest, WeightsAndScalesOfLossesMayChange) {
+  auto problem = make_problem({constraint(100), {energy("rotation", 1), nullptr}});
+  problem.set_weight(0, 2);
+  EXPECT_DOUBLE_EQ(problem.energy(), 2 * 25);
+  problem.set_weight(0, 0);
+  EXPECT_EQ(problem.energy(), 0);
+
+  Energy tolerant = energy("constraint", 1);
+  tolerant.loss = {"huber", 10};
+  auto robust = make_problem({{tolerant, constraints_}});
+  EXPECT_DOUBLE_EQ(robust.energy(), 25);
+  robust.set_loss_scale(0, 1);
+  EXPECT_DOUBLE_EQ(robust.energy(), 2 * 5 - 1);
+}
+
+TEST_F(ProblemTest, RefusesWeightsAndScalesThatAreNone) {
+  auto problem = make_problem({constraint(100)});
+  for (const double wrong : {-1.0, static_cast<double>(kNaN), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THAT(error_of([&] { problem.set_weight(0, wrong); }), testing::HasSubstr("weight of energy"));
+    EXPECT_THAT(error_of([&] { problem.set_loss_scale(0, wrong); }), testing::HasSubstr("scale of the loss"));
+  }
+  EXPECT_THAT(error_of([&] { problem.set_loss_scale(0, 0); }), testing::HasSubstr("energy constraint is 0"));
+  EXPECT_DOUBLE_EQ(problem.energy(), 100 * 25);
+}
+
 TEST_F(ProblemTest, CountsInstancesAndTheNodesTheyCouple) {
   const auto problem =
       make_problem({{energy("rotation", 1), nullptr}, {energy("regularization", 1), nullptr}, constraint()});

@@ -9,21 +9,6 @@ namespace {
 
 class Agreement : public SolverTest {
  protected:
-  /// Every registered solver, with every choice of its linear solver.
-  std::vector<std::string> all_solvers() const {
-    std::vector<std::string> all;
-    for (const auto* info : registry_.components(Solver::kind)) {
-      const auto* row = info->parameters.find("linear_solver");
-      std::vector<std::string> linear_solvers = row->choices();
-      if (row->type() == ParameterType::component)
-        for (const auto* linear : registry_.components(row->kind())) linear_solvers.push_back(linear->name);
-      for (const auto& linear : linear_solvers)
-        all.push_back("{type: " + info->name + ", linear_solver: " + linear +
-                      ", tolerance: 1e-8, max_iterations: 200}");
-    }
-    return all;
-  }
-
   void expect_same_minimum(Problem problem) {
     const auto start = problem.unknowns();
     const double before = problem.energy();

@@ -15,6 +15,19 @@ SolverTest::SolverTest() {
   energies_ = all_energies(registry_);
 }
 
+std::vector<std::string> SolverTest::all_solvers(const std::string& options) const {
+  std::vector<std::string> all;
+  for (const auto* info : registry_.components(Solver::kind)) {
+    const auto* row = info->parameters.find("linear_solver");
+    std::vector<std::string> linear_solvers = row->choices();
+    if (row->type() == ParameterType::component)
+      for (const auto* linear : registry_.components(row->kind())) linear_solvers.push_back(linear->name);
+    for (const auto& linear : linear_solvers)
+      all.push_back("{type: " + info->name + ", linear_solver: " + linear + ", " + options + "}");
+  }
+  return all;
+}
+
 SolverSummary SolverTest::solve(Problem& problem, const std::string& yaml) {
   const auto solver = make<Solver>(registry_, yaml);
   const auto bound = solver->bind(problem, device_);

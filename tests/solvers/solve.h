@@ -15,6 +15,10 @@ class SolverTest : public testing::Test {
  protected:
   SolverTest();
 
+  /// Every registered solver, with every choice of its linear solver and `options` of both.
+  std::vector<std::string> all_solvers(
+      const std::string& options = "tolerance: 1e-8, max_iterations: 200") const;
+
   /// Solves `problem` from where it stands with the solver written as `yaml`.
   SolverSummary solve(Problem& problem, const std::string& yaml);
 
