@@ -58,6 +58,23 @@ void check_is_seen(const Image<Fragment>& seen, const char* which, const std::st
   throw DataError(fmt::format("{}: no pixel of the camera sees the {} mesh", path, which));
 }
 
+/// Takes the depth away from the left `share` of the columns between the first and the last with depth.
+void hide_left_part(DepthImage& depth, double share) {
+  int first = depth.width();
+  int end = 0;
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      if (depth(u, v) <= 0) continue;
+      first = std::min(first, u);
+      end = std::max(end, u + 1);
+    }
+  }
+  const int stop = first + static_cast<int>(std::lround(share * (end - first)));
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = first; u < stop; ++u) depth(u, v) = 0;
+  }
+}
+
 std::string described(const std::vector<std::string>& expression) {
   return expression.empty() ? "neutral" : fmt::format("{}", fmt::join(expression, " "));
 }
@@ -151,6 +168,8 @@ FramePair RenderedMesh::load(std::uint64_t seed) const {
   KinectNoise noise(settings_.noise, camera.fx, seed);
   noise.disturb(pair.source.depth);
   noise.disturb(pair.target.depth);
+  // After the noise, so that what is left is the same with and without.
+  hide_left_part(pair.target.depth, settings_.hide_left);
   return pair;
 }
 
@@ -169,6 +188,9 @@ void register_rendered_mesh(Registry& registry) {
               .above(0)
               .doc("from the camera to the middle of the mesh"),
           real("noise", 0).range(0, 10).doc("strength of Kinect-like depth noise: 0 none, 1 as the camera"),
+          real("hide_left", 0)
+              .range(0, 0.9)
+              .doc("share of the target's width, from its left in the image, that has no depth"),
       }),
       [](const Parameters& parameters, const Registry&) -> std::unique_ptr<DataSource> {
         RenderedMesh::Settings settings;
@@ -180,6 +202,7 @@ void register_rendered_mesh(Registry& registry) {
         settings.camera = virtual_camera(parameters);
         settings.distance = parameters.real("distance");
         settings.noise = parameters.real("noise");
+        settings.hide_left = parameters.real("hide_left");
         return std::make_unique<RenderedMesh>(std::move(settings));
       });
 }

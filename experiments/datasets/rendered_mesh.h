@@ -28,6 +28,8 @@ class RenderedMesh : public DataSource {
     Camera camera;
     double distance = 700;  ///< mm along the optical axis to the middle of the mesh
     double noise = 0;       ///< strength of the KinectNoise on both depth images
+    /// Share of the columns that the target covers, 0 <= share < 1, whose depth it lacks, from its left.
+    double hide_left = 0;
   };
 
   /// Reads the mesh. Throws DataError when it cannot, ConfigError for an expression that the mesh does not

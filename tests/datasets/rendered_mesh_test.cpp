@@ -103,6 +103,20 @@ TEST_F(RenderedSquare, NoiseComesFromTheSeedAndLeavesTheTruthAlone) {
   EXPECT_EQ(noisy.scene_flow(300, 200), clean.scene_flow(300, 200));
 }
 
+TEST_F(RenderedSquare, TheLeftOfTheTargetCanBeHidden) {
+  const FramePair whole = load(", noise: 1, target: [slide=1]");
+  const FramePair cut = load(", noise: 1, target: [slide=1], hide_left: 0.2");
+  // The target covers the 150 columns from 260 on, of which 30 are hidden.
+  for (int v = 165; v < 315; ++v) {
+    for (int u = 0; u < 640; ++u) ASSERT_EQ(cut.target.depth(u, v), u < 290 ? 0 : whole.target.depth(u, v));
+  }
+  EXPECT_GT(whole.target.depth(260, 200), 0);
+  EXPECT_EQ(whole.target.depth(259, 200), 0);
+  EXPECT_EQ(cut.source.depth.pixels(), whole.source.depth.pixels());
+  EXPECT_EQ(cut.scene_flow(250, 200), whole.scene_flow(250, 200)) << "the truth of what is hidden stays";
+  EXPECT_THAT(config_error_of(section(", hide_left: 1")), HasSubstr("hide_left"));
+}
+
 TEST_F(RenderedSquare, ExpressionsThatDoNotExistAreErrors) {
   EXPECT_THAT(config_error_of(section(", target: [slid=1]")),
               AllOf(HasSubstr("'slid' in 'target'"), HasSubstr("expected one of bulge, slide"),
