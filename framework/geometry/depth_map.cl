@@ -219,8 +219,17 @@ kernel void surface(global const float* depth, int stride, int2 size, float4 cam
     const float2 pixel = 1.0f / camera.xy;
     const Lanes ray_x = ((Lanes)(u - camera.z) + LANE_OFFSETS) * pixel.x;
     const Lanes ray_y = (v - camera.w) * pixel.y;
-    const Vector fitted = window_normal(centre, stride, radius, depth_step, z, ray_x, ray_y, pixel);
     const Vector ray = {ray_x, ray_y, 1};
+    Vector fitted = {0, 0, 0};
+    Truth is_open = HAS_DEPTH(z);  // still without a normal
+    for (int reach = radius; ANY(is_open) && reach <= max(radius, WIDEST); reach *= 2) {
+      const Vector wider = window_normal(centre, stride, reach, depth_step, z, ray_x, ray_y, pixel);
+      fitted.x = select(fitted.x, wider.x, is_open);
+      fitted.y = select(fitted.y, wider.y, is_open);
+      fitted.z = select(fitted.z, wider.z, is_open);
+      is_open = is_open && fabs(inner(fitted, ray)) < (Lanes)EDGE_ON;
+    }
+    fitted = only(!is_open, fitted);
     const Lanes sign = select((Lanes)1, (Lanes)-1, inner(fitted, ray) > (Lanes)0);  // faces the camera
     normal = only(HAS_DEPTH(z), scaled(fitted, sign));
     point = only(HAS_DEPTH(z), scaled(ray, z));
