@@ -51,11 +51,21 @@ RgbdFrame picture_of(const Image<Fragment>& seen, const std::vector<Eigen::Vecto
   return frame;
 }
 
-void check_is_seen(const Image<Fragment>& seen, const char* which, const std::string& path) {
-  const auto& pixels = seen.pixels();
-  const auto shows = [](const Fragment& fragment) { return fragment.triangle >= 0; };
-  if (std::any_of(pixels.begin(), pixels.end(), shows)) return;
-  throw DataError(fmt::format("{}: no pixel of the camera sees the {} mesh", path, which));
+/// Takes the depth away from the left `share` of the columns between the first and the last with depth.
+void hide_left_part(DepthImage& depth, double share) {
+  int first = depth.width();
+  int end = 0;
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      if (depth(u, v) <= 0) continue;
+      first = std::min(first, u);
+      end = std::max(end, u + 1);
+    }
+  }
+  const int stop = first + static_cast<int>(std::lround(share * (end - first)));
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = first; u < stop; ++u) depth(u, v) = 0;
+  }
 }
 
 /// Takes the depth away from the left `share` of the columns between the first and the last with depth.
@@ -99,7 +109,7 @@ Eigen::Affine3d motion_of(const Parameters& section) {
 }  // namespace
 
 RenderedMesh::RenderedMesh(Settings settings)
-    : settings_(std::move(settings)), mesh_(read_gltf(settings_.mesh)) {
+    : settings_(std::move(settings)), mesh_(read_gltf(settings_.mesh, settings_.mesh_scale)) {
   identity_ = weights_of("identity", settings_.identity);
   const auto with_identity = [this](std::vector<double> weights) {
     std::transform(weights.begin(), weights.end(), identity_.begin(), weights.begin(), std::plus<>());
@@ -137,13 +147,32 @@ std::vector<double> RenderedMesh::weights_of(const std::string& key,
   return weights;
 }
 
-/// From the mesh's frame (y up, looking along +z) to the camera's, the middle of the neutral mesh on the
-/// optical axis, so that an expression does not move the rest of the face.
-Eigen::Affine3d RenderedMesh::placement() const {
+/// Of the neutral mesh, in mm in its own frame, so that an expression does not move the rest of the face.
+Eigen::AlignedBox3d RenderedMesh::box() const {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh_.deform(identity_)) box.extend(vertex);
+  return box;
+}
+
+/// From the mesh's frame (y up, looking along +z) to the camera's, the middle of the mesh on the optical
+/// axis.
+Eigen::Affine3d RenderedMesh::placement() const {
   return Eigen::Translation3d(0, 0, settings_.distance) *
-         Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()) * Eigen::Translation3d(-box.center());
+         Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()) *
+         Eigen::Translation3d(-box().center());
+}
+
+void RenderedMesh::check_is_seen(const Image<Fragment>& seen, const char* which) const {
+  const Eigen::Vector3d size = box().sizes();
+  const bool is_inside = size.z() / 2 >= settings_.distance;
+  const auto& pixels = seen.pixels();
+  const auto shows = [](const Fragment& fragment) { return fragment.triangle >= 0; };
+  if (!is_inside && std::any_of(pixels.begin(), pixels.end(), shows)) return;
+  throw DataError(fmt::format(
+      "{}: {} {} mesh, which is {:.3g} x {:.3g} x {:.3g} mm, {:g} mm away; in another unit than {:g} "
+      "mm? See mesh_scale, mm a unit of the file, and distance",
+      settings_.mesh, is_inside ? "the camera is inside the" : "no pixel of the camera sees the", which,
+      size.x(), size.y(), size.z(), settings_.distance, settings_.mesh_scale));
 }
 
 FramePair RenderedMesh::load(std::uint64_t seed) const {
@@ -155,8 +184,8 @@ FramePair RenderedMesh::load(std::uint64_t seed) const {
   const Points at_rest = mesh_.deform(std::vector<double>(mesh_.targets.size(), 0));
   const Image<Fragment> seen_source = render_mesh(source, mesh_.triangles, camera);
   const Image<Fragment> seen_target = render_mesh(target, mesh_.triangles, camera);
-  check_is_seen(seen_source, "source", settings_.mesh);
-  check_is_seen(seen_target, "target", settings_.mesh);
+  check_is_seen(seen_source, "source");
+  check_is_seen(seen_target, "target");
 
   FramePair pair;
   pair.name = fmt::format("{}, {} to {}", std::filesystem::path(settings_.mesh).stem().string(),
@@ -178,7 +207,11 @@ void register_rendered_mesh(Registry& registry) {
   registry.add<DataSource>(
       "rendered_mesh", "A mesh seen with one expression and then another, with its true motion",
       with_camera({
-          path("mesh").doc("binary glTF file (.glb), in metres, y up, looking along +z"),
+          path("mesh").doc("binary glTF file (.glb), y up, looking along +z"),
+          real("mesh_scale", defaults.mesh_scale)
+              .unit("mm")
+              .above(0)
+              .doc("what a unit of the file is; glTF's is the metre"),
           words("identity").optional().doc("who it is: weights of morph targets, as in [identity000=0.5]"),
           words("source").optional().doc("expression of the source, as in [jawOpen=0.5, mouthLeft=1]"),
           words("target").optional().doc("expression of the target, likewise"),
@@ -195,6 +228,7 @@ void register_rendered_mesh(Registry& registry) {
       [](const Parameters& parameters, const Registry&) -> std::unique_ptr<DataSource> {
         RenderedMesh::Settings settings;
         settings.mesh = parameters.text("mesh");
+        settings.mesh_scale = parameters.real("mesh_scale");
         settings.identity = parameters.words("identity");
         settings.source = parameters.words("source");
         settings.target = parameters.words("target");

@@ -7,6 +7,7 @@
 #include "experiments/datasets/data_source.h"
 #include "framework/core/registry.h"
 #include "framework/geometry/mesh.h"
+#include "framework/geometry/render.h"
 
 namespace pliant {
 
@@ -18,7 +19,8 @@ namespace pliant {
 class RenderedMesh : public DataSource {
  public:
   struct Settings {
-    std::string mesh;  ///< path of a .glb file
+    std::string mesh;          ///< path of a .glb file
+    double mesh_scale = 1000;  ///< mm a unit of the file
     // Expressions: morph targets and their weights as "name=weight".
     std::vector<std::string> identity;  ///< of source and target alike
     std::vector<std::string> source;
@@ -36,12 +38,15 @@ class RenderedMesh : public DataSource {
   /// have or that is not written as above.
   explicit RenderedMesh(Settings settings);
 
-  /// The seed is that of the noise. Throws DataError when no pixel sees the mesh.
+  /// The seed is that of the noise. Throws DataError, with the size of the mesh, when no pixel sees it or the
+  /// camera is inside of it.
   FramePair load(std::uint64_t seed) const override;
 
  private:
   std::vector<double> weights_of(const std::string& key, const std::vector<std::string>& expression) const;
+  Eigen::AlignedBox3d box() const;
   Eigen::Affine3d placement() const;
+  void check_is_seen(const Image<Fragment>& seen, const char* which) const;
 
   Settings settings_;
   Mesh mesh_;

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <utility>
 
+#include "experiments/datasets/depth_doubts.h"
 #include "framework/core/error.h"
 #include "framework/io/images.h"
 #include "framework/io/intrinsics.h"
@@ -21,6 +24,11 @@ void check_size(const AnyImage& image, const std::string& path, const Depth& dep
   if (image.width() == depth.width() && image.height() == depth.height()) return;
   throw DataError(fmt::format("{}: {}x{} pixels, but the depth image {} has {}x{}", path, image.width(),
                               image.height(), depth_path, depth.width(), depth.height()));
+}
+
+void scale(DepthImage& depth, double factor) {
+  std::transform(depth.data(), depth.data() + depth.size(), depth.data(),
+                 [factor](float value) { return static_cast<float>(value * factor); });
 }
 
 void drop_farther(DepthImage& depth, double limit) {
@@ -51,9 +59,10 @@ MaskImage read_object_mask(const std::string& path) {
   return mask;
 }
 
-RgbdFrame read_frame(const RgbdPair::FrameFiles& files, std::optional<double> max_depth) {
+RgbdFrame read_frame(const RgbdPair::FrameFiles& files, const RgbdPair::Settings& settings) {
   RgbdFrame frame;
   frame.depth = read_depth(files.depth);
+  scale(frame.depth, settings.depth_scale);
   if (!files.color.empty()) {
     frame.color = read_color(files.color);
     check_size(frame.color, files.color, frame.depth, files.depth);
@@ -62,9 +71,13 @@ RgbdFrame read_frame(const RgbdPair::FrameFiles& files, std::optional<double> ma
     frame.mask = read_object_mask(files.mask);
     check_size(frame.mask, files.mask, frame.depth, files.depth);
   }
-  if (max_depth) drop_farther(frame.depth, *max_depth);
-  check_has_points(frame, files, max_depth);
+  if (settings.max_depth) drop_farther(frame.depth, *settings.max_depth);
+  check_has_points(frame, files, settings.max_depth);
   return frame;
+}
+
+void add(std::vector<std::string> more, std::vector<std::string>& warnings) {
+  std::move(more.begin(), more.end(), std::back_inserter(warnings));
 }
 
 // A truth that says nothing about the source belongs to another image.
@@ -85,9 +98,9 @@ RgbdPair::FrameFiles frame_files(const Parameters& section) {
 
 ParameterTable frame_table() {
   return {
-      path("depth").doc("16-bit PNG of depth in mm, 0 where there is none"),
+      path("depth").doc("16-bit PNG of depth, 0 where there is none"),
       path("color").optional().doc("PNG or JPEG, aligned with the depth"),
-      path("mask").optional().doc("single-channel PNG, not zero on the object"),
+      path("mask").optional().doc("PNG, not black and not transparent on the object"),
   };
 }
 
@@ -97,10 +110,16 @@ FramePair RgbdPair::load(std::uint64_t /*seed*/) const {
   FramePair pair;
   const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
   pair.name = stem(settings_.source.depth) + " to " + stem(settings_.target.depth);
-  pair.source = read_frame(settings_.source, settings_.max_depth);
-  pair.target = read_frame(settings_.target, settings_.max_depth);
+  pair.source = read_frame(settings_.source, settings_);
+  pair.target = read_frame(settings_.target, settings_);
   check_size(pair.target.depth, settings_.target.depth, pair.source.depth, settings_.source.depth);
-  pair.camera = read_intrinsics(settings_.intrinsics, pair.source.depth.width(), pair.source.depth.height());
+  Intrinsics intrinsics =
+      read_intrinsics(settings_.intrinsics, pair.source.depth.width(), pair.source.depth.height());
+  pair.camera = intrinsics.camera;
+  pair.warnings = std::move(intrinsics.warnings);
+  const double depth_scale = settings_.depth_scale;
+  add(doubts_about_depth(pair.source, depth_scale, settings_.source.depth), pair.warnings);
+  add(doubts_about_depth(pair.target, depth_scale, settings_.target.depth), pair.warnings);
   if (!settings_.scene_flow.empty()) {
     pair.scene_flow = read_scene_flow(settings_.scene_flow);
     check_size(pair.scene_flow, settings_.scene_flow, pair.source.depth, settings_.source.depth);
@@ -117,6 +136,10 @@ void register_rgbd_pair(Registry& registry) {
           group("target", frame_table()).doc("the image it is deformed to"),
           path("intrinsics").doc("text file with the 3x3 or 4x4 camera matrix in pixels"),
           path("scene_flow").optional().doc("true motion of every source pixel (.sflow)"),
+          real("depth_scale", 1)
+              .unit("mm")
+              .above(0)
+              .doc("what a unit of the depth images is; 0.2 where they count 5000 a metre, as TUM's do"),
           real("max_depth")
               .unit("mm")
               .above(0)
@@ -129,6 +152,7 @@ void register_rgbd_pair(Registry& registry) {
         settings.target = frame_files(parameters.section("target"));
         settings.intrinsics = parameters.text("intrinsics");
         settings.scene_flow = path_or_empty(parameters, "scene_flow");
+        settings.depth_scale = parameters.real("depth_scale");
         if (parameters.has("max_depth")) settings.max_depth = parameters.real("max_depth");
         return std::make_unique<RgbdPair>(std::move(settings));
       });

@@ -21,13 +21,15 @@ class RgbdPair : public DataSource {
     FrameFiles target;
     std::string intrinsics;
     std::string scene_flow;
+    double depth_scale = 1;           ///< mm a unit of the depth images
     std::optional<double> max_depth;  ///< mm; farther depth is dropped
   };
 
   explicit RgbdPair(Settings settings) : settings_(std::move(settings)) {}
 
   /// Gives images of one size with at least one point in the source and in the target, and with truth,
-  /// where there is a file of it, for at least one point of the source. The seed plays no part.
+  /// where there is a file of it, for at least one point of the source. What is odd about depth or intrinsics
+  /// is among the pair's warnings. The seed plays no part.
   FramePair load(std::uint64_t seed) const override;
 
  private:

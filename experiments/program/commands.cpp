@@ -79,6 +79,9 @@ void check_command(const ExperimentOptions& options) {
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
   Workbench workbench(registry);
   check_experiment(plan, workbench);
+  for (const auto& run : plan.runs)
+    for (const auto& warning : workbench.pair(run.values).warnings)
+      fmt::print("{}: warning: {}\n", run.name, warning);
   fmt::print("{}: good; it makes {} run{}:", options.file, plan.runs.size(),
              plan.runs.size() == 1 ? "" : "s");
   for (const auto& run : plan.runs) fmt::print(" {}", run.name);

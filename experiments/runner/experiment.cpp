@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 #include "experiments/datasets/data_source.h"
 #include "experiments/report/report.h"
+#include "framework/core/config_reader.h"
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
 #include "framework/registration/handle.h"
@@ -22,16 +24,34 @@ ParameterTable compare_table() {
   };
 }
 
+/// Whether it may stand in a folder's name on any system, and in a link: ASCII signs that mean something to
+/// either may not.
+bool is_of_name(unsigned char letter) {
+  constexpr std::string_view signs = "_-.+=,()[]@~! ";
+  return letter >= 0x80 || std::isalnum(letter) != 0 || signs.find(static_cast<char>(letter)) != signs.npos;
+}
+
 /// Results are kept in folders of these names, so they must be fit for one.
 void check_name(const std::string& name, const std::string& file, const std::string& what) {
   const bool is_good =
-      !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '+' || c == '=';
-      });
+      !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), is_of_name);
   if (is_good) return;
   throw ConfigError(
-      fmt::format("{}: {} '{}' cannot name a folder; expected letters, digits and the signs _ - . + =", file,
-                  what, name));
+      fmt::format("{}: {} '{}' cannot name a folder; expected letters, digits, spaces and the signs "
+                  "_ - . + = , ( ) [ ] @ ~ !",
+                  file, what, name));
+}
+
+/// The name that a file gives: what a folder cannot be named with, or JSON cannot hold, becomes "_".
+std::string name_of(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  const bool is_text = is_utf8(name);
+  for (char& letter : name) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (!is_of_name(byte) || (byte >= 0x80 && !is_text)) letter = '_';
+  }
+  if (name.front() == '.') name.front() = '_';
+  return name;
 }
 
 void check_quick(const ExperimentPlan& plan, const std::string& file) {
@@ -57,7 +77,7 @@ void check_handles(const ExperimentPlan& plan) {
 /// beside the results is the same experiment.
 void name_experiment(ExperimentPlan& plan, const ConfigSource& source) {
   const Parameters& values = plan.experiment.values;
-  plan.name = values.has("name") ? values.text("name") : source.file.stem().string();
+  plan.name = values.has("name") ? values.text("name") : name_of(source.file);
   if (values.has("name")) return;
   nlohmann::ordered_json named = {{"name", plan.name}};
   named.update(plan.experiment.tree);

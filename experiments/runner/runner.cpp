@@ -63,7 +63,7 @@ RunRecord make_run(const ExperimentPlan::Run& run, const fs::path& folder, Workb
   record.name = run.name;
   Device& device = workbench.device(run.values);
   device.measure_stages(true);
-  record.result = told_with_place(run.place, [&] {
+  record.result = told_with_place(run.place, pair, [&] {
     return register_pair(pair, method, device, static_cast<std::uint64_t>(run.values.integer("seed")),
                          named_progress(progress, run.name));
   });
@@ -83,8 +83,8 @@ EditRecord make_edit(const ExperimentPlan::Run& run, const fs::path& folder, Wor
   const NamedHandles handles = make_handles(run, workbench.registry());
   Device& device = workbench.device(run.values);
   device.measure_stages(true);
-  EditRecord record{run.name,
-                    told_with_place(run.place, [&] { return edit_surface(pair, handles, method, device); })};
+  EditRecord record{run.name, told_with_place(run.place, pair,
+                                              [&] { return edit_surface(pair, handles, method, device); })};
   device.measure_stages(false);
   write_reports(run, EditInput{pair, record}, folder, workbench.registry());
   return record;

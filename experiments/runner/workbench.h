@@ -42,4 +42,16 @@ auto told_with_place(const std::string& place, Work work) {
   }
 }
 
+/// The same for work on a pair, with what is odd about it: that may well be the reason.
+template <class Work>
+auto told_with_place(const std::string& place, const FramePair& pair, Work work) {
+  try {
+    return told_with_place(place, work);
+  } catch (const DataError& error) {
+    std::string message = error.what();
+    for (const auto& warning : pair.warnings) message += "; warning: " + warning;
+    throw DataError(message);
+  }
+}
+
 }  // namespace pliant

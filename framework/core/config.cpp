@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -22,6 +23,7 @@ using nlohmann::ordered_json;
 using Kind = ConfigNode::Kind;
 
 constexpr std::size_t max_file_size = std::size_t{1} << 20;
+constexpr int any_line = std::numeric_limits<int>::max();
 
 /// The text of a file, or why there is none.
 struct FileText {
@@ -78,6 +80,7 @@ class FileLoader {
     auto tree = read_yaml(read.text, origin, errors_);
     if (!tree) return {};
     tree->mark = {origin, 1, 1};
+    if (tree->kind == Kind::scalar && report_slip(read.text, any_line, origin, errors_)) return {};
     if (tree->kind != Kind::map) {
       errors_.add(tree->mark, std::string(tree->kind == Kind::null ? "the file is empty" : "not a map") +
                                   "; expected the keys of an experiment");

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <sstream>
+#include <vector>
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -66,6 +68,28 @@ class Columns {
  private:
   std::vector<int> letters_;  ///< how many begin before each byte
 };
+
+struct KeyAndValue {
+  std::string key, value;
+};
+
+/// The two halves of "key:value", which YAML takes for one word. Where a slash follows it is the name of a
+/// place, as in "http://".
+std::optional<KeyAndValue> glued_pair(const std::string& word) {
+  const auto is_of_key = [](unsigned char letter) { return std::isalnum(letter) != 0 || letter == '_'; };
+  const auto colon =
+      static_cast<std::size_t>(std::find_if_not(word.begin(), word.end(), is_of_key) - word.begin());
+  if (colon == 0 || colon + 1 >= word.size() || word[colon] != ':') return std::nullopt;
+  if (std::isdigit(static_cast<unsigned char>(word.front())) != 0) return std::nullopt;
+  const std::string value = word.substr(colon + 1);
+  if (std::string(" \t\r/\\").find(value.front()) != std::string::npos) return std::nullopt;
+  return KeyAndValue{word.substr(0, colon), value};
+}
+
+std::string glued_message(const KeyAndValue& pair) {
+  return fmt::format("no space after the colon of {}; expected {}", in_quotes(pair.key),
+                     in_quotes(pair.key + ": " + pair.value));
+}
 
 /// YAML that is well-formed and yet no experiment.
 struct Refused {
@@ -208,6 +232,12 @@ class TreeBuilder : public YAML::EventHandler {
 
   void end_entry(Frame& frame, ConfigNode value) {
     frame.has_key = false;
+    if (const auto pair = glued_pair(frame.key.text); pair && value.kind == ConfigNode::Kind::null) {
+      errors_.add(frame.key.mark, glued_message(*pair));
+      frame.key.text = pair->key;
+      value.kind = ConfigNode::Kind::scalar;
+      value.text = pair->value;
+    }
     const auto [first, is_new] = frame.keys.emplace(frame.key.text, frame.key.mark);
     if (is_new)
       frame.node.entries.push_back({frame.key.text, frame.key.mark, std::move(value)});
@@ -231,6 +261,28 @@ class TreeBuilder : public YAML::EventHandler {
 
 bool is_utf8(const std::string& text) { return first_not_utf8(text) == text.size(); }
 
+bool report_slip(const std::string& text, int last_line, const std::shared_ptr<const ConfigOrigin>& origin,
+                 ConfigErrors& errors) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; static_cast<int>(lines.size()) < last_line && std::getline(stream, line);)
+    lines.push_back(line);
+  for (auto number = static_cast<int>(lines.size()); number > 0; --number) {
+    const std::string& line = lines[static_cast<std::size_t>(number) - 1];
+    const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
+    const std::size_t tab = line.find('\t');
+    if (number == last_line && tab < first) {
+      errors.add({origin, number, static_cast<int>(tab) + 1}, "a tab in the indentation; expected spaces");
+      return true;
+    }
+    if (const auto pair = glued_pair(line.substr(first))) {
+      errors.add({origin, number, static_cast<int>(first) + 1}, glued_message(*pair));
+      return true;
+    }
+  }
+  return false;
+}
+
 std::optional<ConfigNode> read_yaml(const std::string& text,
                                     const std::shared_ptr<const ConfigOrigin>& origin, ConfigErrors& errors) {
   TreeBuilder builder(text, origin, errors);
@@ -249,6 +301,7 @@ std::optional<ConfigNode> read_yaml(const std::string& text,
     }
   } catch (const YAML::Exception& error) {
     const ConfigMark mark = error.mark.is_null() ? ConfigMark{origin, 0, 0} : builder.place(error.mark);
+    if (report_slip(text, mark.line, origin, errors)) return std::nullopt;
     errors.add(mark, "not valid YAML: " + error.msg);
     return std::nullopt;
   } catch (const Refused& refused) {

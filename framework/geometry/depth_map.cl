@@ -144,6 +144,11 @@ Vector window_normal(global const float* centre, int stride, int radius, float d
   return only(count >= (Lanes)FEWEST_POINTS, plane_normal(spread));
 }
 
+// Whether a pixel with depth `z` still has no normal, or one that the points of a single line made up.
+Truth is_undetermined(Vector normal, Vector ray, Lanes z) {
+  return HAS_DEPTH(z) && fabs(inner(normal, ray)) < (Lanes)EDGE_ON;
+}
+
 // Points and unit normals, x y z a pixel, without the halo. camera: fx, fy, cx, cy.
 kernel void surface(global const float* depth, int stride, int2 size, float4 camera, int radius,
                     float depth_step, global float* points, global float* normals) {
@@ -158,8 +163,17 @@ kernel void surface(global const float* depth, int stride, int2 size, float4 cam
     const float2 pixel = 1.0f / camera.xy;
     const Lanes ray_x = ((Lanes)(u - camera.z) + LANE_OFFSETS) * pixel.x;
     const Lanes ray_y = (v - camera.w) * pixel.y;
-    const Vector fitted = window_normal(centre, stride, radius, depth_step, z, ray_x, ray_y, pixel);
     const Vector ray = {ray_x, ray_y, 1};
+    Vector fitted = window_normal(centre, stride, radius, depth_step, z, ray_x, ray_y, pixel);
+    Truth is_open = is_undetermined(fitted, ray, z);
+    for (int reach = 2 * radius; reach <= WIDEST && ANY(is_open); reach *= 2) {
+      const Vector wider = window_normal(centre, stride, reach, depth_step, z, ray_x, ray_y, pixel);
+      fitted.x = select(fitted.x, wider.x, is_open);
+      fitted.y = select(fitted.y, wider.y, is_open);
+      fitted.z = select(fitted.z, wider.z, is_open);
+      is_open = is_undetermined(fitted, ray, z);
+    }
+    fitted = only(!is_open, fitted);
     const Lanes sign = select((Lanes)1, (Lanes)-1, inner(fitted, ray) > (Lanes)0);  // faces the camera
     normal = only(HAS_DEPTH(z), scaled(fitted, sign));
     point = only(HAS_DEPTH(z), scaled(ray, z));

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "framework/geometry/camera.h"
 #include "framework/geometry/image.h"
@@ -24,6 +25,8 @@ struct FramePair {
   /// True motion in mm (camera frame) of the surface point seen at each source pixel; NaN where it is
   /// unknown; empty when nothing is known.
   Image<Eigen::Vector3f> scene_flow;
+  /// What is odd about all this, though it can be used: a line each. They go into what is made of the pair.
+  std::vector<std::string> warnings;
 };
 
 }  // namespace pliant

@@ -1,6 +1,17 @@
 #include "framework/geometry/pixel_index.h"
 
+#include <algorithm>
+
 namespace pliant {
+namespace {
+
+int seen_at(const PixelIndex& index, int u, int v) {
+  const int column = u - index.left;
+  const int row = v - index.top;
+  return index.points.contains(column, row) ? index.points(column, row) : -1;
+}
+
+}  // namespace
 
 PixelIndex index_pixels(const Surface& surface) {
   if (surface.size() == 0) return {};
@@ -17,6 +28,44 @@ PixelIndex index_pixels(const Surface& surface) {
     index.points(place.x(), place.y()) = static_cast<int>(i);
   }
   return index;
+}
+
+int point_at(const PixelIndex& index, const Eigen::Vector2i& pixel, const PixelBox& box) {
+  if (const int point = seen_at(index, pixel.x(), pixel.y()); point >= 0) return point;
+  int nearest = -1;
+  int least = 2 * gap_radius * gap_radius + 1;
+  int quadrants = 0;  // one bit each
+  for (int dv = -gap_radius; dv <= gap_radius; ++dv) {
+    for (int du = -gap_radius; du <= gap_radius; ++du) {
+      const int u = pixel.x() + du;
+      const int v = pixel.y() + dv;
+      const int point = seen_at(index, u, v);
+      if (point < 0) continue;
+      const int columns = (du <= 0 ? 1 : 0) | (du >= 0 ? 2 : 0);
+      quadrants |= (dv <= 0 ? columns : 0) | (dv >= 0 ? columns << 2 : 0);
+      const bool is_inside = u >= box.left && u < box.right && v >= box.top && v < box.bottom;
+      const int distance = du * du + dv * dv;
+      if (!is_inside || distance >= least) continue;
+      nearest = point;
+      least = distance;
+    }
+  }
+  return quadrants == 15 ? nearest : -1;
+}
+
+std::vector<int> points_on_grid(const Surface& surface, int step) {
+  const PixelIndex index = index_pixels(surface);
+  std::vector<int> found;
+  const int centre = step / 2;
+  for (int top = index.top / step * step; top < index.top + index.points.height(); top += step) {
+    for (int left = index.left / step * step; left < index.left + index.points.width(); left += step) {
+      const PixelBox mask{left, top, left + step, top + step};
+      const int point = point_at(index, {left + centre, top + centre}, mask);
+      if (point >= 0) found.push_back(point);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace pliant

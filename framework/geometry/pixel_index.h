@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "framework/geometry/image.h"
 #include "framework/geometry/surface.h"
 
@@ -13,5 +15,23 @@ struct PixelIndex {
 };
 
 PixelIndex index_pixels(const Surface& surface);
+
+/// Pixels of an image from (left, top) to before (right, bottom).
+struct PixelBox {
+  int left, top, right, bottom;
+};
+
+/// How far from a pixel in a gap of sparse depth a point is looked for, in pixels. As in quadtree.cl.
+inline constexpr int gap_radius = 3;
+
+/// The point seen at a pixel of the camera's image. In a gap between points, as sparse depth and single lines
+/// that are missing leave them, the nearest point of the box that is at most `gap_radius` pixels away in u and
+/// v, the first one in row-major order on a tie. It is a gap where points lie in all four quadrants around the
+/// pixel, within that distance and the axes included; outside the object they do not. -1 where there is none.
+int point_at(const PixelIndex& index, const Eigen::Vector2i& pixel, const PixelBox& box);
+
+/// The points of the surface, by index and ascending, at the centres (see point_at) of `step` x `step` pixel
+/// masks that tile its image from the top left corner.
+std::vector<int> points_on_grid(const Surface& surface, int step);
 
 }  // namespace pliant

@@ -84,6 +84,16 @@ Eigen::Vector3d fit_normal(const Moments& moments) {
   return solver.eigenvectors().col(0);
 }
 
+/// Unit normal at a point, zero where even the widest window gives none.
+Eigen::Vector3d find_normal(const PointImage& points, int u, int v, int radius, float depth_step) {
+  const Eigen::Vector3d point = points(u, v).cast<double>();
+  for (int reach = radius; reach <= std::max(radius, widest_normal_radius); reach *= 2) {
+    const Eigen::Vector3d normal = fit_normal(collect_window(points, u, v, reach, depth_step));
+    if (std::abs(normal.dot(point)) >= edge_on * point.z()) return normal;
+  }
+  return Eigen::Vector3d::Zero();
+}
+
 }  // namespace
 
 SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius, float depth_step) {
@@ -94,8 +104,7 @@ SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int ra
     for (int u = 0; u < map.points.width(); ++u) {
       const Eigen::Vector3f& point = map.points(u, v);
       if (!is_point(point)) continue;
-      const Eigen::Vector3f normal =
-          fit_normal(collect_window(map.points, u, v, radius, depth_step)).cast<float>();
+      const Eigen::Vector3f normal = find_normal(map.points, u, v, radius, depth_step).cast<float>();
       map.normals(u, v) = normal.dot(point) > 0 ? Eigen::Vector3f(-normal) : normal;
     }
   }
@@ -115,16 +124,6 @@ Surface make_surface(const SurfaceMap& map, const ColorImage& color) {
     }
   }
   return surface;
-}
-
-std::vector<int> points_on_grid(const Surface& surface, int step) {
-  const int centre = step / 2;
-  std::vector<int> found;
-  for (std::size_t i = 0; i < surface.size(); ++i) {
-    const Eigen::Vector2i& pixel = surface.pixels[i];
-    if (pixel.x() % step == centre && pixel.y() % step == centre) found.push_back(static_cast<int>(i));
-  }
-  return found;
 }
 
 }  // namespace pliant

@@ -29,11 +29,18 @@ struct SurfaceMap {
 /// The window over which normals are fitted.
 inline constexpr int default_normal_radius = 2;
 inline constexpr float default_depth_step = 30;  // mm
+/// Where depth is sparse, the window grows up to this.
+inline constexpr int widest_normal_radius = 8;
 /// Fewest points of a window that give a normal: the centre and three neighbours.
 inline constexpr int fewest_plane_points = 4;
 /// Of the two spreads (variances) within the plane, the smaller one over the larger: below it the points lie
 /// on a line, and every plane through it fits. Single precision still resolves it.
 inline constexpr float flattest_spread = 1e-5F;
+
+/// Least part of a unit normal along the viewing ray (x, y, 1). The pixels of a window that come to less lie
+/// on one line, as where only single rows have depth: their points are in one plane with the camera, which
+/// says nothing of the surface.
+inline constexpr float edge_on = 0.01F;
 
 /// Depth to points and normals, in plain C++ (depth_map.h does it on a device). Only pixels of which
 /// `is_depth` holds count, and only those inside the mask where there is one. A normal comes from the plane
@@ -44,9 +51,5 @@ SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int ra
 
 /// The valid points of a map as a list, with colours from `color` when that is not empty.
 Surface make_surface(const SurfaceMap& map, const ColorImage& color);
-
-/// The points of the surface, by index, at the centres of `step` x `step` pixel masks that tile its image
-/// from the top left corner.
-std::vector<int> points_on_grid(const Surface& surface, int step);
 
 }  // namespace pliant

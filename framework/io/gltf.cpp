@@ -18,9 +18,12 @@ namespace {
 
 using Json = GltfDocument::Json;
 
-constexpr double kMillimetresPerMetre = 1000;
+// Modes of primitives.
+constexpr std::size_t kTriangleList = 4;
+constexpr std::size_t kTriangleStrip = 5;
+constexpr std::size_t kTriangleFan = 6;
 
-/// One primitive as it is in the file: metres, in the frame of its node.
+/// One primitive as it is in the file: in its unit, in the frame of its node.
 struct Primitive {
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3i> triangles;
@@ -29,7 +32,7 @@ struct Primitive {
 
 class SceneReader {
  public:
-  explicit SceneReader(const GltfDocument& document) : document_(document) {}
+  SceneReader(const GltfDocument& document, double unit) : document_(document), unit_(unit) {}
 
   Mesh read() {
     collect_nodes();
@@ -46,13 +49,12 @@ class SceneReader {
 
   // A list of nodes still to visit rather than recursion: a file may be deeper than the stack.
   void collect_nodes() {
-    const Json& scene = document_.element("scenes", document_.integer(document_.root(), "scene", 0));
     std::vector<bool> visited(document_.list(document_.root(), "nodes").size());
     std::vector<PlacedNode> pending;
     const auto add_all = [&](const std::vector<Json>& indices, const Eigen::Affine3d& parent) {
       for (const Json& index : indices) pending.push_back({document_.index(index, "node"), parent});
     };
-    add_all(document_.list(scene, "nodes"), Eigen::Affine3d::Identity());
+    for (const std::size_t node : roots()) pending.push_back({node, Eigen::Affine3d::Identity()});
     while (!pending.empty()) {
       const PlacedNode placed = pending.back();
       pending.pop_back();
@@ -63,6 +65,28 @@ class SceneReader {
       if (document_.find(node, "mesh") != nullptr) add_mesh(node, placement);
       add_all(document_.list(node, "children"), placement);
     }
+  }
+
+  /// The nodes of the default scene; where there is no scene, those that are nobody's children.
+  std::vector<std::size_t> roots() const {
+    std::vector<std::size_t> roots;
+    if (document_.find(document_.root(), "scenes") != nullptr) {
+      const Json& scene = document_.element("scenes", document_.integer(document_.root(), "scene", 0));
+      for (const Json& index : document_.list(scene, "nodes"))
+        roots.push_back(document_.index(index, "node"));
+      return roots;
+    }
+    const auto& nodes = document_.list(document_.root(), "nodes");
+    std::vector<bool> is_child(nodes.size());
+    for (const Json& node : nodes)
+      for (const Json& index : document_.list(node, "children")) {
+        const std::size_t child = document_.index(index, "node");
+        document_.element("nodes", child);
+        is_child[child] = true;
+      }
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (!is_child[i]) roots.push_back(i);
+    return roots;
   }
 
   Eigen::Affine3d local_transform(const Json& node) const {
@@ -93,17 +117,15 @@ class SceneReader {
     if (document_.find(node, "skin") != nullptr) document_.fail("a skinned mesh, which is not supported");
     const Json& mesh = document_.element("meshes", document_.integer(node, "mesh"));
     for (const Json& description : document_.list(mesh, "primitives")) {
+      const std::size_t mode = document_.integer(description, "mode", kTriangleList);
+      if (mode > kTriangleFan) document_.fail(fmt::format("a primitive of mode {}, expected 0 to 6", mode));
+      if (mode < kTriangleList) continue;  // points or lines
       const Primitive primitive = read_primitive(description);
       add_primitive(primitive, target_names(mesh, primitive.displacements.size()), placement);
     }
   }
 
   Primitive read_primitive(const Json& description) const {
-    constexpr std::size_t kTriangleList = 4;
-    const std::size_t mode = document_.integer(description, "mode", kTriangleList);
-    if (mode != kTriangleList) {
-      document_.fail(fmt::format("a primitive of mode {}, expected 4, a list of triangles", mode));
-    }
     Primitive primitive;
     primitive.positions =
         document_.vectors(document_.integer(document_.at(description, "attributes"), "POSITION"));
@@ -132,18 +154,24 @@ class SceneReader {
     } else {
       for (std::uint32_t i = 0; i < vertex_count; ++i) corners.push_back(i);
     }
-    if (corners.size() % 3 != 0) {
-      document_.fail(fmt::format("{} corners do not make whole triangles", corners.size()));
+    for (const std::uint32_t corner : corners) {
+      if (corner >= vertex_count)
+        document_.fail(fmt::format("a triangle names vertex {} of {}", corner, vertex_count));
     }
+    return assemble(corners, document_.integer(description, "mode", kTriangleList));
+  }
+
+  std::vector<Eigen::Vector3i> assemble(const std::vector<std::uint32_t>& corners, std::size_t mode) const {
+    const std::size_t step = mode == kTriangleList ? 3 : 1;
+    if (mode == kTriangleList && corners.size() % 3 != 0)
+      document_.fail(fmt::format("{} corners do not make whole triangles", corners.size()));
     std::vector<Eigen::Vector3i> triangles;
-    for (std::size_t i = 0; i < corners.size(); i += 3) {
-      for (std::size_t j = i; j < i + 3; ++j) {
-        if (corners[j] >= vertex_count) {
-          document_.fail(fmt::format("a triangle names vertex {} of {}", corners[j], vertex_count));
-        }
-      }
-      triangles.emplace_back(static_cast<int>(corners[i]), static_cast<int>(corners[i + 1]),
-                             static_cast<int>(corners[i + 2]));
+    for (std::size_t i = 0; i + 2 < corners.size(); i += step) {
+      // In a strip every second triangle runs the other way round.
+      const std::size_t turn = mode == kTriangleStrip ? i % 2 : 0;
+      triangles.emplace_back(static_cast<int>(corners[mode == kTriangleFan ? 0 : i]),
+                             static_cast<int>(corners[i + 1 + turn]),
+                             static_cast<int>(corners[i + 2 - turn]));
     }
     return triangles;
   }
@@ -208,8 +236,8 @@ class SceneReader {
     }
   }
 
-  Eigen::Vector3f to_millimetres(const Eigen::Vector3d& metres) const {
-    Eigen::Vector3f millimetres = (metres * kMillimetresPerMetre).cast<float>();
+  Eigen::Vector3f to_millimetres(const Eigen::Vector3d& vector) const {
+    Eigen::Vector3f millimetres = (vector * unit_).cast<float>();
     if (!millimetres.allFinite()) document_.fail("the transforms of its nodes carry a vertex to infinity");
     return millimetres;
   }
@@ -228,14 +256,15 @@ class SceneReader {
   }
 
   const GltfDocument& document_;
+  double unit_;  ///< mm
   Mesh mesh_;
 };
 
 }  // namespace
 
-Mesh read_gltf(const std::string& path) {
+Mesh read_gltf(const std::string& path, double unit) {
   const GltfDocument document(read_file(path), path);
-  return SceneReader(document).read();
+  return SceneReader(document, unit).read();
 }
 
 }  // namespace pliant

@@ -58,6 +58,22 @@ cv::Mat to_matrix(const Image<Source>& image, Convert convert) {
   return matrix;
 }
 
+/// 1 where any of grey or of blue, green, red is not zero, and alpha, where there is any, neither.
+template <class Value>
+MaskImage to_mask(const cv::Mat& image) {
+  const int channels = image.channels();
+  const int colors = channels == 4 ? 3 : channels;  // the decoder makes grey with alpha into four
+  MaskImage mask(image.cols, image.rows);
+  for (int v = 0; v < image.rows; ++v) {
+    const auto* row = image.ptr<Value>(v);
+    for (int u = 0; u < image.cols; ++u, row += channels) {
+      const bool is_coloured = std::any_of(row, row + colors, [](Value value) { return value != 0; });
+      mask(u, v) = is_coloured && (channels < 4 || row[3] != 0) ? 1 : 0;
+    }
+  }
+  return mask;
+}
+
 std::uint16_t to_millimetres(float depth, const std::string& path) {
   if (!std::isfinite(depth) || depth <= 0) return 0;
   const float rounded = std::round(depth);
@@ -72,7 +88,7 @@ std::uint16_t to_millimetres(float depth, const std::string& path) {
 DepthImage read_depth(const std::string& path) {
   const PngFile file = check_png(read_file(path), path);
   if (!file.header.is_grey() || file.header.bit_depth != 16) {
-    throw DataError(fmt::format("{}: {} PNG, expected a 16-bit single-channel PNG of depth in mm", path,
+    throw DataError(fmt::format("{}: {} PNG, expected a 16-bit single-channel PNG of depth", path,
                                 file.header.describe()));
   }
   return to_image<float, std::uint16_t>(decode(file.bytes, cv::IMREAD_UNCHANGED, path),
@@ -96,14 +112,8 @@ ColorImage read_color(const std::string& path) {
 
 MaskImage read_mask(const std::string& path) {
   const PngFile file = check_png(read_file(path), path);
-  if (!file.header.is_grey()) {
-    throw DataError(
-        fmt::format("{}: {} PNG, expected a single-channel PNG mask", path, file.header.describe()));
-  }
   const cv::Mat image = decode(file.bytes, cv::IMREAD_UNCHANGED, path);
-  const auto is_object = [](auto value) { return static_cast<std::uint8_t>(value != 0); };
-  return image.depth() == CV_16U ? to_image<std::uint8_t, std::uint16_t>(image, is_object)
-                                 : to_image<std::uint8_t, std::uint8_t>(image, is_object);
+  return image.depth() == CV_16U ? to_mask<std::uint16_t>(image) : to_mask<std::uint8_t>(image);
 }
 
 void write_depth(const std::string& path, const DepthImage& depth) {

@@ -180,6 +180,7 @@ EditResult edit_surface(const FramePair& pair, const NamedHandles& handles, cons
   const Stopwatch watch;
   device.take_stage_times();  // of whatever came before
   EditResult result = Edit(pair, handles, method, device).solve();
+  result.warnings.insert(result.warnings.begin(), pair.warnings.begin(), pair.warnings.end());
   result.total_ms = watch.milliseconds();
   return result;
 }

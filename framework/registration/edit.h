@@ -34,7 +34,7 @@ struct EditResult {
   RegistrationResult::Counts counts;  ///< there are no outer iterations: nothing is matched
   RegistrationResult::Energy energy;  ///< per iteration of the solver
   RegistrationResult::SolverRecord solver;
-  std::vector<std::string> warnings;  ///< what was done otherwise than asked for
+  std::vector<std::string> warnings;  ///< of the pair, then what was done otherwise than asked for
   double total_ms = 0;
   StageTimes time_ms;
 };

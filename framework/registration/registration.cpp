@@ -434,6 +434,7 @@ RegistrationResult register_pair(const FramePair& pair, const Method& method, De
   Registration registration(pair, method, device, seed);
   registration.run(progress);
   RegistrationResult result = registration.take_result();
+  result.warnings.insert(result.warnings.begin(), pair.warnings.begin(), pair.warnings.end());
   result.total_ms = watch.milliseconds();
   return result;
 }

@@ -47,7 +47,7 @@ struct RegistrationResult {
   /// three the result is that of the iteration before.
   std::string termination;
   std::string reason;                 ///< of one of those three, in words
-  std::vector<std::string> warnings;  ///< what was done otherwise than asked for
+  std::vector<std::string> warnings;  ///< of the pair, then what was done otherwise than asked for
   double total_ms = 0;
   StageTimes time_ms;  ///< see docs/results.md
 };

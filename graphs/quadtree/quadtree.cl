@@ -4,6 +4,7 @@
 // centre: the point at the centre of a cell, or one of these; constant.
 #define VIRTUAL (-1)  // the cell has points, but none there
 #define EMPTY (-2)    // the cell has no point at all
+#define GAP_RADIUS 3  // gap_radius of pixel_index.h
 // state: the tree itself. A parent has been divided, its children are leaves or parents.
 #define ABSENT 0
 #define LEAF 1
@@ -50,6 +51,30 @@ kernel void sum_children(int level, global float2* totals) {
   totals[first_cell(level) + cell] = children[0] + children[1] + children[2] + children[3];
 }
 
+int seen_at(int2 pixel, int2 size, global const int* points) {
+  return all(pixel >= 0) && all(pixel < size) ? points[pixel.y * size.x + pixel.x] : -1;
+}
+
+// point_at of pixel_index.h.
+int point_at(int2 pixel, int4 box, int2 size, global const int* points) {
+  const int there = seen_at(pixel, size, points);
+  if (there >= 0) return there;
+  int nearest = -1, least = 2 * GAP_RADIUS * GAP_RADIUS + 1, quadrants = 0;
+  for (int dv = -GAP_RADIUS; dv <= GAP_RADIUS; ++dv)
+    for (int du = -GAP_RADIUS; du <= GAP_RADIUS; ++du) {
+      const int2 other = pixel + (int2)(du, dv);
+      const int point = seen_at(other, size, points);
+      if (point < 0) continue;
+      const int columns = (du <= 0 ? 1 : 0) | (du >= 0 ? 2 : 0);
+      quadrants |= (dv <= 0 ? columns : 0) | (dv >= 0 ? columns << 2 : 0);
+      const int distance = du * du + dv * dv;
+      if (!(all(other >= box.xy) && all(other < box.zw)) || distance >= least) continue;
+      nearest = point;
+      least = distance;
+    }
+  return quadrants == 15 ? nearest : -1;
+}
+
 // What there is at the centre of each cell of a level; `totals` counts every point. Level 1 becomes leaves.
 kernel void find_centres(int level, int4 root, int2 size, global const int* points,
                          global const float2* totals, global int* centre, global int* state) {
@@ -60,8 +85,7 @@ kernel void find_centres(int level, int4 root, int2 size, global const int* poin
   const int at = first_cell(level) + cell;
   int found = EMPTY;
   if (totals[at].y > 0) {
-    const int is_inside = all(pixel >= 0) && all(pixel < size);
-    const int point = is_inside ? points[pixel.y * size.x + pixel.x] : -1;
+    const int point = point_at(pixel, box, size, points);
     found = point >= 0 ? point : VIRTUAL;
   }
   centre[at] = found;

@@ -8,6 +8,7 @@
 
 #include "framework/core/error.h"
 #include "framework/deformation/graph_builder.h"
+#include "framework/geometry/pixel_index.h"
 
 namespace pliant {
 namespace {

@@ -2,7 +2,8 @@
 // map of points, whose corner lies at pixel `corner` of the image; masks tile the image. Mask (0, 0) is the
 // one that the corner lies in.
 kernel void choose(int2 masks, int step, global const int* spread_rows, float threshold, int2 corner,
-                   int2 size, global const int* points, global const float* residuals, global int* flags) {
+                   int2 size, global const int* points, global const int* is_centre,
+                   global const float* residuals, global int* flags) {
   const int mask = get_global_id(0);
   if (mask >= masks.x * masks.y) return;
   const int2 origin = (int2)(mask % masks.x, mask / masks.x) * step - corner % step;
@@ -27,7 +28,6 @@ kernel void choose(int2 masks, int step, global const int* spread_rows, float th
       if (point < 0) continue;
       const int2 place = (int2)(u, v) - origin;
       const int is_spread = place.y == spread_rows[place.x];
-      const int is_centre = all(place == step / 2);
-      flags[point] = wants_all || (wants_some ? is_spread : is_centre);
+      flags[point] = wants_all || (wants_some ? is_spread : is_centre[point]);
     }
 }

@@ -40,7 +40,8 @@ class AdaptiveSelection : public PointSelection {
     auto choose = device.kernel(embedded::samplers_adaptive_adaptive_cl, "choose");
     const auto mask_count = static_cast<std::size_t>(masks_.s[0]) * static_cast<std::size_t>(masks_.s[1]);
     device.run(stage, choose, mask_count, 64, masks_, step_, spread_rows_.device(device), threshold_, corner_,
-               size_, map_.device(device), residuals.device(device), flags_.write_device(device));
+               size_, map_.device(device), is_centre_.device(device), residuals.device(device),
+               flags_.write_device(device));
     const std::vector<int> before = std::exchange(points_, compact(device, stage, flags_).host());
     return points_ != before;
   }
@@ -55,18 +56,23 @@ class AdaptiveSelection : public PointSelection {
         masks_{{masks_over(index.left, index.points.width()), masks_over(index.top, index.points.height())}},
         map_(index.points.pixels()),
         flags_(source.size()),
-        points_(points_on_grid(source, step)) {}
+        points_(points_on_grid(source, step)) {
+    std::vector<int> is_centre(source.size(), 0);
+    for (const int point : points_) is_centre[static_cast<std::size_t>(point)] = 1;
+    is_centre_ = Array<int>(std::move(is_centre));
+  }
 
   int masks_over(int first, int count) const { return (first + count - 1) / step_ - first / step_ + 1; }
 
   cl_int step_;
   Array<int> spread_rows_;  ///< per column of a mask: the row of its one point, of n spread evenly
   cl_float threshold_;
-  cl_int2 corner_;    ///< pixel of the map's corner
-  cl_int2 size_;      ///< of the map
-  cl_int2 masks_;     ///< how many touch the map, across and down
-  Array<int> map_;    ///< point at each pixel
-  Array<int> flags_;  ///< per point: is it constrained?
+  cl_int2 corner_;        ///< pixel of the map's corner
+  cl_int2 size_;          ///< of the map
+  cl_int2 masks_;         ///< how many touch the map, across and down
+  Array<int> map_;        ///< point at each pixel
+  Array<int> is_centre_;  ///< per point: is it the one at the centre of its mask?
+  Array<int> flags_;      ///< per point: is it constrained?
   std::vector<int> points_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "framework/geometry/pixel_index.h"
 #include "framework/registration/sampler.h"
 
 namespace pliant {

@@ -132,6 +132,23 @@ TEST(DeviceSurfaceMap, TooFewOrCollinearNeighboursGiveNoNormal) {
   EXPECT_EQ(worst.validity, 0);
 }
 
+TEST(DeviceSurfaceMap, AgreesWithTheReferenceWhereDepthIsSparse) {
+  for (const int step : {2, 3, 4, 8, 9}) {
+    RgbdFrame frame = made_depth(kCamera);
+    for (int v = 0; v < kCamera.height; ++v) {
+      for (int u = 0; u < kCamera.width; ++u) {
+        // Dense at the left, single pixels in the middle, single rows at the right.
+        const bool is_kept = u < 40 || (v % step == 0 && (u > 120 || u % step == 0));
+        if (!is_kept) frame.depth(u, v) = 0;
+      }
+    }
+    const Difference worst = compare(frame);
+    EXPECT_LT(worst.angle, 0.1) << step;
+    EXPECT_EQ(worst.validity, 0) << step;
+    EXPECT_GT(worst.normals, 2800) << step;
+  }
+}
+
 TEST(DeviceSurfaceMap, GivesTheSameBitsTwice) {
   const RgbdFrame frame = made_depth(kCamera);
   Device first, second;

@@ -114,12 +114,26 @@ TEST(SurfaceMap, TooFewOrCollinearNeighboursGiveNoNormal) {
   for (const auto& [u, v] : {std::pair(50, 50), {51, 50}, {50, 51}}) frame.depth(u, v) = 800;
   for (int u = 90; u < 100; ++u) frame.depth(u, 50) = 800;
   SurfaceMap map = make_surface_map(frame, kCamera);
-  EXPECT_EQ(map.normals(50, 50), Eigen::Vector3f(0, 0, 0)) << "two neighbours";
+  frame.depth(59, 59) = 800;
+  map = make_surface_map(frame, kCamera);
+  EXPECT_EQ(map.normals(50, 50), Eigen::Vector3f(0, 0, 0)) << "two neighbours within 8 pixels";
   EXPECT_EQ(map.normals(95, 50), Eigen::Vector3f(0, 0, 0)) << "a line";
   EXPECT_GT(map.points(95, 50).z(), 0);
   frame.depth(51, 51) = 800;
   map = make_surface_map(frame, kCamera);
   EXPECT_LT(degrees_between(map.normals(50, 50), {0, 0, -1}), 0.01) << "three neighbours";
+}
+
+TEST(SurfaceMap, SparseDepthHasNormalsFromFurtherAway) {
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.5, 0.3, -1).normalized();
+  for (const int step : {2, 3, 4, 6, 8}) {
+    RgbdFrame frame = render_plane(normal);
+    for (int v = 0; v < kCamera.height; ++v)
+      for (int u = 0; u < kCamera.width; ++u)
+        if (u % step != 0 || v % step != 0) frame.depth(u, v) = 0;
+    const Surface surface = make_surface(make_surface_map(frame, kCamera), {});
+    for (const auto& found : surface.normals) ASSERT_LT(degrees_between(found, normal), 0.02) << step;
+  }
 }
 
 TEST(SurfaceMap, EmptyInputGivesNothing) {

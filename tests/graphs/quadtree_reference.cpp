@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "framework/geometry/pixel_index.h"
+
 namespace pliant {
 
 struct QuadtreeReference::Cell {
@@ -98,8 +100,8 @@ std::unique_ptr<QuadtreeReference::Cell> QuadtreeReference::make_cell(int level,
     if (pixel.x() < box.left || pixel.x() >= box.right || pixel.y() < box.top || pixel.y() >= box.bottom)
       continue;
     cell->region.push_back(static_cast<int>(i));
-    if (pixel == centre) cell->node = static_cast<int>(i);
   }
+  cell->node = point_at(index_pixels(surface_), centre, {box.left, box.top, box.right, box.bottom});
   cell->box.is_virtual = cell->node < 0;
   return cell;
 }

@@ -178,9 +178,37 @@ TEST_F(Images, MaskIsNonZeroInEightAndSixteenBits) {
   EXPECT_EQ(read_mask(write_png("sixteen.png", sixteen)).pixels(), expected);
 }
 
-TEST_F(Images, ColouredMaskIsAnError) {
-  const auto path = write_png("rgb.png", cv::Mat::ones(4, 4, CV_8UC3));
-  EXPECT_THAT(data_error_of([&] { read_mask(path); }), HasSubstr("rgb.png: 8-bit RGB PNG"));
+TEST_F(Images, MaskMayBeColoured) {
+  const std::vector<std::uint8_t> expected = {0, 1, 1};
+  cv::Mat bgr = cv::Mat::zeros(1, 3, CV_8UC3);
+  bgr.at<cv::Vec3b>(0, 1) = {0, 0, 1};
+  bgr.at<cv::Vec3b>(0, 2) = {255, 255, 255};
+  EXPECT_EQ(read_mask(write_png("rgb.png", bgr)).pixels(), expected);
+  cv::Mat deep;
+  bgr.convertTo(deep, CV_16U, 256);  // the low bytes alone are zero
+  EXPECT_EQ(read_mask(write_png("rgb16.png", deep)).pixels(), expected);
+}
+
+TEST_F(Images, MaskIsNothingWhereItIsTransparent) {
+  cv::Mat bgra(1, 4, CV_8UC4, cv::Scalar(0, 0, 0, 0));
+  bgra.at<cv::Vec4b>(0, 1) = {0, 0, 0, 255};
+  bgra.at<cv::Vec4b>(0, 2) = {255, 255, 255, 0};
+  bgra.at<cv::Vec4b>(0, 3) = {255, 255, 255, 1};
+  EXPECT_EQ(read_mask(write_png("rgba.png", bgra)).pixels(), (std::vector<std::uint8_t>{0, 0, 0, 1}));
+}
+
+TEST_F(Images, MaskMayHaveAPalette) {
+  // 2x1 pixels of colours 1 and 0 of the palette black, red.
+  const std::vector<std::uint8_t> bytes = {
+      0x89, 'P',  'N',  'G',  '\r', '\n', 0x1a, '\n',  //
+      0,    0,    0,    13,   'I',  'H',  'D',  'R',  0,    0,    0,    2,    0,
+      0,    0,    1,    8,    3,    0,    0,    0,    0xc3, 0xfc, 0x8f, 0xb8,  //
+      0,    0,    0,    6,    'P',  'L',  'T',  'E',  0,    0,    0,    255,  0,
+      0,    0x1b, 0xff, 0x8d, 0x22,  //
+      0,    0,    0,    11,   73,   68,   65,   84,   120,  156,  99,   96,   100,
+      0,    0,    0,    5,    0,    2,    0xd1, 0x66, 0x33, 0x78,  //
+      0,    0,    0,    0,    'I',  'E',  'N',  'D',  0xae, 0x42, 0x60, 0x82};
+  EXPECT_EQ(read_mask(write("palette.png", bytes)).pixels(), (std::vector<std::uint8_t>{1, 0}));
 }
 
 TEST_F(Images, MaskSurvivesARoundTrip) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "framework/core/error.h"
+#include "framework/geometry/pixel_index.h"
 #include "framework/registration/registration.h"
 #include "tests/experiments/experiment_files.h"
 

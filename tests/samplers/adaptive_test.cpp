@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "framework/geometry/pixel_index.h"
 #include "tests/geometry/holey_surface.h"
 
 namespace pliant {
@@ -49,6 +50,7 @@ std::set<std::pair<int, int>> spread_places(Device& device, int step) {
 std::vector<int> select_reference(const Surface& surface, int step, const std::vector<float>& residuals,
                                   const std::set<std::pair<int, int>>& spread) {
   std::vector<int> selected;
+  const std::vector<int> centres = points_on_grid(surface, step);
   for (const auto& [place, mask] : masks_of(surface, step)) {
     double sum = 0;
     int known = 0;
@@ -61,7 +63,7 @@ std::vector<int> select_reference(const Surface& surface, int step, const std::v
     for (const int point : mask) {
       const Eigen::Vector2i& pixel = surface.pixels[static_cast<std::size_t>(point)];
       const std::pair<int, int> within(pixel.x() % step, pixel.y() % step);
-      const bool is_centre = within == std::pair(step / 2, step / 2);
+      const bool is_centre = std::binary_search(centres.begin(), centres.end(), point);
       if (mean > threshold || (mean >= threshold / 2 ? spread.count(within) > 0 : is_centre))
         selected.push_back(point);
     }

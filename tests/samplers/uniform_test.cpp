@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "framework/geometry/pixel_index.h"
 #include "framework/registration/sampler.h"
 #include "tests/geometry/holey_surface.h"
 
@@ -17,10 +18,7 @@ TEST(UniformSampler, TakesTheCentreOfEachMaskAndKeepsIt) {
   const Surface surface = holey_surface(96, 70, 1);
   Device device;
   const auto samples = sampler->select(device, surface, Camera{});
-  std::vector<int> expected;
-  for (std::size_t i = 0; i < surface.size(); ++i)
-    if (surface.pixels[i].x() % 5 == 2 && surface.pixels[i].y() % 5 == 2)
-      expected.push_back(static_cast<int>(i));
+  const std::vector<int> expected = points_on_grid(surface, 5);
   EXPECT_FALSE(expected.empty());
   EXPECT_EQ(samples->points(), expected);
   EXPECT_FALSE(samples->adapt(device, Array<float>(patchy_residuals(surface, 1))));
