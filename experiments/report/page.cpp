@@ -95,6 +95,8 @@ std::string method_table(const RegistrationResult& result) {
            {"Last solve ended", result.solver.termination},
            {"Registration ended",
             result.reason.empty() ? result.termination : result.termination + ": " + result.reason},
+           {"Aligned by", result.alignment.method +
+                              (result.alignment.reason.empty() ? "" : ": " + result.alignment.reason)},
            {"Feature matches", matches},
            {"Initial rotation", fmt::format("{:.2f} degrees", angle)},
            {"Initial translation", fmt::format("{:.1f} mm", result.alignment.motion.translation().norm())}}));

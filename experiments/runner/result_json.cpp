@@ -29,6 +29,19 @@ ordered_json metrics_json(const Metrics& metrics) {
   return json;
 }
 
+ordered_json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// The rotation as axis times degrees, the translation in mm.
+ordered_json alignment_json(const AlignmentResult& alignment) {
+  const Eigen::AngleAxisd turn(alignment.motion.rotation());
+  return {{"method", alignment.method},
+          {"reason", alignment.reason},
+          {"matches", alignment.matches},
+          {"inliers", alignment.inliers},
+          {"rotation", vector_json(turn.axis() * turn.angle() * 180 / EIGEN_PI)},
+          {"translation", vector_json(alignment.motion.translation())}};
+}
+
 ordered_json counts_json(const RegistrationResult::Counts& counts) {
   return {{"source_points", counts.source_points},
           {"nodes", counts.nodes},
@@ -97,6 +110,7 @@ ordered_json run_json(const RunRecord& run) {
           {"termination", result.termination},
           {"reason", result.reason},
           {"warnings", result.warnings},
+          {"alignment", alignment_json(result.alignment)},
           {"counts", counts_json(result.counts)},
           {"metrics", metrics_json(run.metrics)},
           {"initial", metrics_json(run.initial)},

@@ -23,12 +23,12 @@ std::string without_preprocessor_includes(std::string_view source) {
   return text;
 }
 
+}  // namespace
+
 std::string as_opencl(std::string_view source, const std::string& real) {
   return "#undef PLIANT_EQUATION\n#define PLIANT_EQUATION static inline\n#undef Real\n#define Real " + real +
          "\n" + without_preprocessor_includes(source);
 }
-
-}  // namespace
 
 std::string equation_source(const Energy& energy, const std::string& real) {
   return as_opencl(energy.equation.source, real);

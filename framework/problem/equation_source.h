@@ -1,11 +1,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "framework/deformation/node_transform.h"
 #include "framework/problem/energy.h"
 
 namespace pliant {
+
+/// A text that C++ and OpenCL C share (kernel_math.h) as OpenCL C over `real`.
+std::string as_opencl(std::string_view source, const std::string& real);
 
 /// The functions of an energy's equation.h as OpenCL C, over `real` ("float", or "float16" to run sixteen
 /// instances at once).

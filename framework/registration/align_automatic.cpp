@@ -1,10 +1,14 @@
 #include "framework/registration/align_automatic.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "framework/core/error.h"
 #include "framework/registration/align_features.h"
+#include "framework/registration/align_icp.h"
 #include "framework/registration/alignment.h"
 
 namespace pliant {
@@ -14,12 +18,14 @@ bool has_point(const RgbdFrame& frame, int u, int v) {
   return is_depth(frame.depth(u, v)) && (frame.mask.empty() || frame.mask(u, v) != 0);
 }
 
-double cut_distance(const FramePair& pair, const Eigen::Vector3d& point, double cut) {
-  if (!(point.z() > 0)) return cut;
+/// How far the point is from the target at its pixel, `cut` where there is none; nothing where it leaves the
+/// view, because what is there is not known.
+std::optional<double> cut_distance(const FramePair& pair, const Eigen::Vector3d& point, double cut) {
+  if (!(point.z() > 0)) return std::nullopt;
   const Eigen::Vector2d pixel = pair.camera.project(point).array().round();
   const bool is_inside = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < pair.target.depth.width() &&
                          pixel.y() < pair.target.depth.height();
-  if (!is_inside) return cut;
+  if (!is_inside) return std::nullopt;
   const int u = static_cast<int>(pixel.x());
   const int v = static_cast<int>(pixel.y());
   if (!has_point(pair.target, u, v)) return cut;
@@ -28,49 +34,100 @@ double cut_distance(const FramePair& pair, const Eigen::Vector3d& point, double 
 
 class AutomaticAlignment : public Alignment {
  public:
-  AutomaticAlignment(const FeatureOptions& options, double near_enough)
-      : options_(options), near_enough_(near_enough) {}
+  AutomaticAlignment(const FeatureOptions& features, double near_enough, const RigidIcpOptions& icp)
+      : features_(features), near_enough_(near_enough), icp_(icp) {}
 
-  AlignmentResult align(const FramePair& pair, std::uint64_t seed, bool wants_features) const override {
-    if (pair.source.color.empty() || pair.target.color.empty()) return {};
-    const double residual_at_rest = cut_residual(pair, Eigen::Isometry3d::Identity());
-    if (!wants_features && residual_at_rest < near_enough_) return {};
-    try {
-      return nearer(pair, align_by_features(pair, options_, seed), residual_at_rest);
-    } catch (const DataError&) {
-      return {};  // too little texture to align by
+  AlignmentResult align(const AlignmentInput& input) const override {
+    AlignmentResult result = by_features(input);
+    RigidIcpOptions options = icp_;
+    if (result.method == "features") options.search_angle = 0;  // it is near
+    const RigidIcpResult found = run_icp(input, options, result.motion);
+    result.reason += "; " + described(found);
+    if (!is_clearly_nearer(found)) {
+      result.reason += found.failed ? "" : ": not clearly nearer";
+      return result;
     }
+    move(result, found.pose);
+    result.method = result.method == "features" ? "features, icp" : "icp";
+    return result;
   }
 
  private:
+  /// Puts the source elsewhere; features that do not suit that are dropped.
+  void move(AlignmentResult& result, const Eigen::Isometry3d& motion) const {
+    result.motion = motion;
+    result.features = keep_deformable(result.features, motion, features_.max_deformation);
+    result.inliers = 0;
+    for (std::size_t i = 0; i < result.features.size(); ++i)
+      result.inliers +=
+          (motion * result.features.from[i] - result.features.to[i]).norm() < features_.ransac.inlier_distance
+              ? 1
+              : 0;
+  }
+
+  /// Where features put the source, or no motion and why.
+  AlignmentResult by_features(const AlignmentInput& input) const {
+    const FramePair& pair = input.pair;
+    AlignmentResult stay;
+    if (pair.source.color.empty() || pair.target.color.empty()) {
+      stay.reason = "no features without colour";
+      return stay;
+    }
+    const double at_rest = cut_residual(pair, stay.motion);
+    if (!input.wants_features && at_rest < near_enough_) {
+      stay.reason = fmt::format("no need of features, {:.1f} mm from the target", at_rest);
+      return stay;
+    }
+    try {
+      return nearer(pair, align_by_features(pair, features_, input.seed), at_rest);
+    } catch (const DataError& error) {
+      stay.reason = error.what();  // too little texture to align by
+      return stay;
+    }
+  }
+
   /// `found`, or no motion with the features that suit it where that lies nearer.
-  AlignmentResult nearer(const FramePair& pair, AlignmentResult found, double residual_at_rest) const {
-    const auto stay = Eigen::Isometry3d::Identity();
-    const bool is_trusted = found.inliers >= options_.min_inliers;
-    if (is_trusted && cut_residual(pair, found.motion) < residual_at_rest) return found;
-    found.motion = stay;
-    found.features =
-        is_trusted ? keep_deformable(found.features, stay, options_.max_deformation) : PointMatches{};
+  AlignmentResult nearer(const FramePair& pair, AlignmentResult found, double at_rest) const {
+    found.reason = agreement(found.inliers, found.matches);
+    if (found.inliers < features_.min_inliers) {
+      found.reason += fmt::format(", fewer than {}", features_.min_inliers);
+      found.features = {};
+      move(found, Eigen::Isometry3d::Identity());
+      return found;
+    }
+    const double there = cut_residual(pair, found.motion);
+    found.reason += fmt::format(", {:.1f} -> {:.1f} mm from the target", at_rest, there);
+    if (there < at_rest)
+      found.method = "features";
+    else
+      move(found, Eigen::Isometry3d::Identity());
     return found;
   }
 
-  FeatureOptions options_;
+  FeatureOptions features_;
   double near_enough_;
+  RigidIcpOptions icp_;
 };
 
 }  // namespace
 
 double cut_residual(const FramePair& pair, const Eigen::Isometry3d& motion, double cut) {
+  constexpr double fewest_known = 0.25;
   double sum = 0;
   int count = 0;
+  int known = 0;
   for (int v = 2; v < pair.source.depth.height(); v += 4) {
     for (int u = 2; u < pair.source.depth.width(); u += 4) {
       if (!has_point(pair.source, u, v)) continue;
-      sum += cut_distance(pair, motion * pair.camera.unproject(u, v, pair.source.depth(u, v)), cut);
       ++count;
+      const auto distance =
+          cut_distance(pair, motion * pair.camera.unproject(u, v, pair.source.depth(u, v)), cut);
+      if (!distance) continue;
+      sum += *distance;
+      ++known;
     }
   }
-  return count > 0 ? sum / count : cut;
+  return known > 0 && known >= fewest_known * count ? sum / known : cut;
 }
 
 void register_automatic_alignment(Registry& registry) {
@@ -80,12 +137,15 @@ void register_automatic_alignment(Registry& registry) {
                      .at_least(0)
                      .doc("Where the source begins nearer than this to the target and no energy uses "
                           "features, they are not looked for; 0: always"));
+  rows.push_back(group("icp", ParameterTable(icp_rows())).doc("As of `icp`"));
   registry.add<Alignment>(
       "automatic",
-      "As `features` where there is colour and that brings the source nearer to the target; else as `none`",
+      "By `features` where there is colour and that brings the source nearer to the target; from there, or "
+      "else from far, by `icp` where that brings it clearly nearer; else as `none`",
       ParameterTable(std::move(rows)), [](const Parameters& parameters, const Registry&) {
         return std::make_unique<AutomaticAlignment>(read_feature_options(parameters),
-                                                    parameters.real("near_enough"));
+                                                    parameters.real("near_enough"),
+                                                    read_icp_options(parameters.section("icp")));
       });
 }
 

@@ -241,13 +241,13 @@ class FeatureAlignment : public Alignment {
  public:
   explicit FeatureAlignment(const FeatureOptions& options) : options_(options) {}
 
-  AlignmentResult align(const FramePair& pair, std::uint64_t seed, bool /*wants_features*/) const override {
-    AlignmentResult result = align_by_features(pair, options_, seed);
-    if (result.inliers < options_.min_inliers) {
-      throw DataError(
-          fmt::format("{}: {} of {} feature matches agree on a rigid motion, alignment needs at least {}",
-                      pair.name, result.inliers, result.matches, options_.min_inliers));
-    }
+  AlignmentResult align(const AlignmentInput& input) const override {
+    AlignmentResult result = align_by_features(input.pair, options_, input.seed);
+    if (result.inliers < options_.min_inliers)
+      throw DataError(fmt::format("{}: {}, alignment needs at least {}", input.pair.name,
+                                  agreement(result.inliers, result.matches), options_.min_inliers));
+    result.method = "features";
+    result.reason = agreement(result.inliers, result.matches);
     return result;
   }
 
@@ -256,6 +256,10 @@ class FeatureAlignment : public Alignment {
 };
 
 }  // namespace
+
+std::string agreement(int inliers, int matches) {
+  return fmt::format("{} of {} feature matches agree on a rigid motion", inliers, matches);
+}
 
 AlignmentResult fit_rigid_ransac(const PointMatches& matches, const RansacOptions& options,
                                  std::uint64_t seed) {

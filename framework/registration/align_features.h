@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "framework/core/registry.h"
@@ -13,6 +14,9 @@ struct RansacOptions {
   int iterations = 10000;
   double inlier_distance = 30;  ///< mm
 };
+
+/// "7 of 12 feature matches agree on a rigid motion"
+std::string agreement(int inliers, int matches);
 
 /// The rigid motion that most matches agree with, fitted to all of those. Fewer than three matches, or
 /// none that span a triangle, give the identity without inliers.

@@ -2,9 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "framework/device/device.h"
 #include "framework/geometry/frame.h"
+#include "framework/geometry/point_set.h"
+#include "framework/registration/target.h"
 
 namespace pliant {
 
@@ -16,11 +20,26 @@ struct PointMatches {
   std::size_t size() const { return from.size(); }
 };
 
+/// What an alignment may look at; all of it stays as it is during the call. Maps have one point a pixel of
+/// the pair's camera, (0, 0, 0) where there is none, and are filtered by the method's filter.
+struct AlignmentInput {
+  const FramePair& pair;
+  Device& device;
+  const PointSet& source;           ///< the source's map
+  const Array<int>& source_pixels;  ///< row-major offsets of the pixels that have a point of the source
+  const Target& target;
+  std::uint64_t seed = 0;
+  /// Whether an energy will use AlignmentResult::features, where the method finds any.
+  bool wants_features = false;
+};
+
 /// A rigid motion that brings the source near the target, and what it rests on.
 struct AlignmentResult {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  ///< millimetres, camera frame
-  int matches = 0;  ///< candidate matches (0 where the method has none)
-  int inliers = 0;  ///< those that agree with `motion`
+  std::string method = "none";  ///< what found `motion`: "none", "features", "icp" or "features, icp"
+  std::string reason;           ///< in words, why that one, and what became of the others
+  int matches = 0;              ///< candidate matches (0 where the method has none)
+  int inliers = 0;              ///< those that agree with `motion`
   /// The candidates that agree with `motion` as far as a deformation allows.
   PointMatches features;
 };
@@ -31,8 +50,7 @@ class Alignment {
   static constexpr const char* kind = "alignment";
   virtual ~Alignment() = default;
   /// Deterministic for a given seed. Throws DataError when the pair gives too little to align.
-  /// `wants_features`: an energy will use AlignmentResult::features, where the method finds any.
-  virtual AlignmentResult align(const FramePair& pair, std::uint64_t seed, bool wants_features) const = 0;
+  virtual AlignmentResult align(const AlignmentInput& input) const = 0;
 };
 
 }  // namespace pliant

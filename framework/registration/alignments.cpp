@@ -4,6 +4,7 @@
 
 #include "framework/registration/align_automatic.h"
 #include "framework/registration/align_features.h"
+#include "framework/registration/align_icp.h"
 #include "framework/registration/alignment.h"
 
 namespace pliant {
@@ -11,7 +12,7 @@ namespace {
 
 class NoAlignment : public Alignment {
  public:
-  AlignmentResult align(const FramePair&, std::uint64_t, bool) const override { return {}; }
+  AlignmentResult align(const AlignmentInput&) const override { return {}; }
 };
 
 }  // namespace
@@ -20,6 +21,7 @@ void register_alignments(Registry& registry) {
   registry.add<Alignment>("none", "Leaves the source where it is", {},
                           [](const Parameters&, const Registry&) { return std::make_unique<NoAlignment>(); });
   register_feature_alignment(registry);
+  register_icp_alignment(registry);
   register_automatic_alignment(registry);
 }
 

@@ -4,7 +4,7 @@
 
 namespace pliant {
 
-/// Adds `none`, `features` and `automatic`.
+/// Adds `none`, `features`, `icp` and `automatic`.
 void register_alignments(Registry& registry);
 
 }  // namespace pliant

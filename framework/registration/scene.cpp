@@ -40,20 +40,21 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   // Enqueued first: the device makes the surfaces while the host finds the alignment.
   const DepthMap depth = make_depth_map(pair.source, times);
   const auto filtered = method.filter->filter(device, depth);
-  const PointSet map = make_surface_map(device, depth, pair.camera);
-  std::optional<PointSet> filtered_map;
-  if (filtered) filtered_map = make_surface_map(device, *filtered, pair.camera);
+  const PointSet map = make_surface_map(device, filtered ? *filtered : depth, pair.camera);
+  std::optional<PointSet> unfiltered_map;
+  if (filtered) unfiltered_map = make_surface_map(device, depth, pair.camera);
   Target target(pair.camera, make_target_map(pair, method, device, times));
 
   const Array<int> pixels(timed(times, "surface", [&] { return pixels_with_depth(depth); }));
   if (pixels.empty()) throw DataError(pair.name + ": the source has no point");
-  const AlignmentResult alignment =
-      timed(times, "alignment", [&] { return method.alignment->align(pair, seed, uses_features(method)); });
+  const AlignmentResult alignment = timed(times, "alignment", [&] {
+    return method.alignment->align({pair, device, map, pixels, target, seed, uses_features(method)});
+  });
 
-  const PointSet given = pick_points(device, map, pixels);
-  PointSet rest = pick_points(device, filtered ? *filtered_map : map, pixels, alignment.motion);
+  const PointSet given = pick_points(device, filtered ? *unfiltered_map : map, pixels);
+  PointSet rest = pick_points(device, map, pixels, alignment.motion);
   std::optional<PointSet> unfiltered;
-  if (filtered) unfiltered = pick_points(device, map, pixels, alignment.motion);
+  if (filtered) unfiltered = pick_points(device, *unfiltered_map, pixels, alignment.motion);
   Surface as_given = read_surface(given, pixels.host(), pair.source);
   Surface aligned = read_surface(rest, pixels.host(), pair.source);
   return {pair,

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "framework/core/error.h"
+#include "framework/geometry/depth_map.h"
 #include "framework/registration/align_automatic.h"
 #include "framework/registration/align_features.h"
 #include "framework/registration/alignments.h"
@@ -136,6 +137,16 @@ FramePair moved_plane() {
   return {"plane", camera, render_plane(Eigen::Isometry3d::Identity(), 11), render_plane(a_motion(), 11), {}};
 }
 
+AlignmentResult align(const Alignment& alignment, const FramePair& pair, std::uint64_t seed,
+                      bool wants_features) {
+  static Device device;  // its kernels are built once
+  const DepthMap depth(pair.source);
+  const PointSet source = make_surface_map(device, depth, pair.camera);
+  const Target target(pair.camera, make_surface_map(device, DepthMap(pair.target), pair.camera));
+  return alignment.align(
+      {pair, device, source, Array<int>(pixels_with_depth(depth)), target, seed, wants_features});
+}
+
 std::unique_ptr<Alignment> make_features(std::int64_t min_inliers = 8) {
   Registry registry;
   register_alignments(registry);
@@ -148,7 +159,7 @@ std::unique_ptr<Alignment> make_features(std::int64_t min_inliers = 8) {
 }
 
 TEST(FeatureAlignment, FindsHowAPlaneMoved) {
-  const AlignmentResult result = make_features()->align(moved_plane(), 1, true);
+  const AlignmentResult result = align(*make_features(), moved_plane(), 1, true);
   EXPECT_GE(result.inliers, 30);
   for (const Eigen::Vector3d& corner : {Eigen::Vector3d(-300, -200, 800), Eigen::Vector3d(300, 200, 800)}) {
     EXPECT_LT((result.motion * corner - a_motion() * corner).norm(), 2);
@@ -176,8 +187,8 @@ TEST(FeatureAlignment, GivesTheMatchesThatGoWithTheMotion) {
 }
 
 TEST(FeatureAlignment, SameSeedSameBits) {
-  const AlignmentResult first = make_features()->align(moved_plane(), 5, true);
-  const AlignmentResult second = make_features()->align(moved_plane(), 5, true);
+  const AlignmentResult first = align(*make_features(), moved_plane(), 5, true);
+  const AlignmentResult second = align(*make_features(), moved_plane(), 5, true);
   EXPECT_EQ(first.motion.matrix(), second.motion.matrix());
   EXPECT_EQ(first.inliers, second.inliers);
 }
@@ -197,20 +208,20 @@ TEST(FeatureAlignment, UsesOnlyTheMaskAndPixelsWithDepth) {
 TEST(FeatureAlignment, NeedsColor) {
   FramePair pair = moved_plane();
   pair.target.color = {};
-  EXPECT_THAT([&] { make_features()->align(pair, 1, true); },
+  EXPECT_THAT([&] { align(*make_features(), pair, 1, true); },
               ThrowsMessage<DataError>(AllOf(HasSubstr("plane, target"), HasSubstr("colour image"))));
 }
 
 TEST(FeatureAlignment, NeedsFeatures) {
   FramePair pair = moved_plane();
   pair.source.color = ColorImage(320, 240, Rgb{90, 90, 90});
-  EXPECT_THAT([&] { make_features()->align(pair, 1, true); },
+  EXPECT_THAT([&] { align(*make_features(), pair, 1, true); },
               ThrowsMessage<DataError>(AllOf(HasSubstr("plane, source"), HasSubstr("0 colour features"))));
 }
 
 TEST(FeatureAlignment, NeedsInliersAndSaysHowManyThereAre) {
-  const int inliers = make_features()->align(moved_plane(), 1, true).inliers;
-  EXPECT_THAT([&] { make_features(inliers + 1)->align(moved_plane(), 1, true); },
+  const int inliers = align(*make_features(), moved_plane(), 1, true).inliers;
+  EXPECT_THAT([&] { align(*make_features(inliers + 1), moved_plane(), 1, true); },
               ThrowsMessage<DataError>(AllOf(HasSubstr("plane: " + std::to_string(inliers) + " of "),
                                              HasSubstr("at least " + std::to_string(inliers + 1)))));
 }
@@ -218,13 +229,22 @@ TEST(FeatureAlignment, NeedsInliersAndSaysHowManyThereAre) {
 TEST(FeatureAlignment, RefusesUnrelatedImages) {
   FramePair pair = moved_plane();
   pair.target = render_plane(a_motion(), 77);
-  EXPECT_THROW(make_features()->align(pair, 1, true), DataError);
+  EXPECT_THROW(align(*make_features(), pair, 1, true), DataError);
 }
 
 std::unique_ptr<Alignment> make_automatic() {
   Registry registry;
   register_alignments(registry);
-  return registry.make<Alignment>(Parameters("automatic", {{"near_enough", 20.0},
+  const Parameters icp("", {{"max_distance", 10.0},
+                            {"max_angle", 20.0},
+                            {"step", std::int64_t{1}},
+                            {"levels", std::int64_t{4}},
+                            {"iterations", std::int64_t{10}},
+                            {"coarse_distance", 1.0},
+                            {"coarse_angle", 75.0},
+                            {"search_angle", 30.0}});
+  return registry.make<Alignment>(Parameters("automatic", {{"icp", Parameters::Sections{{"icp", icp}}, true},
+                                                           {"near_enough", 20.0},
                                                            {"scale", 1.0},
                                                            {"ratio", 0.85},
                                                            {"iterations", std::int64_t{2000}},
@@ -234,32 +254,43 @@ std::unique_ptr<Alignment> make_automatic() {
 }
 
 TEST(AutomaticAlignment, MovesWhereFeaturesBringTheSourceNearer) {
-  const AlignmentResult result = make_automatic()->align(moved_plane(), 1, true);
-  EXPECT_EQ(result.motion.matrix(), make_features()->align(moved_plane(), 1, true).motion.matrix());
+  const AlignmentResult result = align(*make_automatic(), moved_plane(), 1, true);
+  EXPECT_EQ(result.method.substr(0, 8), "features");
+  for (const Eigen::Vector3d& corner : {Eigen::Vector3d(-300, -200, 800), Eigen::Vector3d(300, 200, 800)})
+    EXPECT_LT((result.motion * corner - a_motion() * corner).norm(), 2);
   EXPECT_GT(result.features.size(), 10u);
 }
 
 TEST(AutomaticAlignment, LooksForNoFeaturesThatNobodyNeeds) {
   FramePair near = moved_plane();
   near.target = render_plane(Eigen::Isometry3d(Eigen::Translation3d(0, 0, 15)), 11);
-  EXPECT_GT(make_automatic()->align(near, 1, true).matches, 10);
-  const AlignmentResult result = make_automatic()->align(near, 1, false);
+  EXPECT_GT(align(*make_automatic(), near, 1, true).matches, 10);
+  const AlignmentResult result = align(*make_automatic(), near, 1, false);
   EXPECT_EQ(result.matches, 0);
-  EXPECT_TRUE(result.motion.matrix().isIdentity(0));
-  EXPECT_GT(make_automatic()->align(moved_plane(), 1, false).matches, 10) << "too far away to stay";
+  EXPECT_EQ(result.method, "icp");
+  EXPECT_THAT(result.reason, HasSubstr("no need of features"));
+  EXPECT_GT(align(*make_automatic(), moved_plane(), 1, false).matches, 10) << "too far away to stay";
 }
 
-TEST(AutomaticAlignment, StaysWithoutColorTextureOrAgreement) {
+TEST(AutomaticAlignment, GoesByDepthWithoutColorTextureOrAgreementAndSaysWhy) {
   FramePair colorless = moved_plane();
   colorless.target.color = {};
   FramePair plain = moved_plane();
   plain.source.color = ColorImage(320, 240, Rgb{90, 90, 90});
   FramePair unrelated = moved_plane();
   unrelated.target = render_plane(a_motion(), 77);
-  for (const FramePair* pair : {&colorless, &plain, &unrelated}) {
-    const AlignmentResult result = make_automatic()->align(*pair, 1, true);
-    EXPECT_TRUE(result.motion.matrix().isIdentity(0));
+  const std::pair<const FramePair*, const char*> cases[] = {{&colorless, "no features without colour"},
+                                                            {&plain, "0 colour features"},
+                                                            {&unrelated, "fewer than 8"}};
+  for (const auto& [pair, why] : cases) {
+    const AlignmentResult result = align(*make_automatic(), *pair, 1, true);
+    EXPECT_EQ(result.method, "icp");
+    EXPECT_THAT(result.reason, AllOf(HasSubstr(why), HasSubstr("ICP: two-way residual")));
     EXPECT_EQ(result.features.size(), 0u);
+    const Eigen::Vector3d normal = a_motion().linear() * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d middle(0, 0, 800);
+    EXPECT_LT(std::abs(normal.dot(result.motion * middle - a_motion() * middle)), 1);
+    EXPECT_GT(normal.dot(result.motion.linear() * Eigen::Vector3d::UnitZ()), 0.9999);
   }
 }
 
@@ -268,7 +299,7 @@ TEST(AutomaticAlignment, KeepsOnlyFeaturesThatADeformationCouldHaveMadeOfWhereIt
   const auto slid = [](double distance) {
     FramePair pair = moved_plane();
     pair.target = render_plane(Eigen::Isometry3d(Eigen::Translation3d(distance, 0, 0)), 11);
-    return make_automatic()->align(pair, 1, true);
+    return align(*make_automatic(), pair, 1, true);
   };
   const AlignmentResult near = slid(60);
   EXPECT_TRUE(near.motion.matrix().isIdentity(0));
@@ -351,7 +382,7 @@ TEST(NoAlignment, LeavesTheSourceWhereItIs) {
   Registry registry;
   register_alignments(registry);
   const AlignmentResult result =
-      registry.make<Alignment>(Parameters("none", {}))->align(moved_plane(), 1, true);
+      align(*registry.make<Alignment>(Parameters("none", {})), moved_plane(), 1, true);
   EXPECT_TRUE(result.motion.matrix().isIdentity(0));
   EXPECT_EQ(result.matches, 0);
 }

@@ -16,7 +16,7 @@ const Camera kCamera{300, 290, 84.5, 40, 165, 83};
 
 class QuarterTurn : public Alignment {
  public:
-  AlignmentResult align(const FramePair&, std::uint64_t, bool) const override {
+  AlignmentResult align(const AlignmentInput&) const override {
     AlignmentResult result;
     result.motion =
         Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());

@@ -1,0 +1,435 @@
+// Rigid ICP [thesis 3.3]: projective matches, point to plane [Eq. 3.2], several poses side by side.
+//
+// Samples lie coordinate by coordinate (x y z of the point, then of its normal), `padded` to whole vectors; a
+// sample without a point has z = 0. A pose is 16 numbers: the rows of R, where the pivot goes, and what
+// became of it. It moves a point p to R (p - pivot) + where the pivot goes.
+
+#define FARTHEST 1e18f  // farthest_depth of image.h
+
+#define POSE_SIZE 16
+#define PIVOT 9
+#define STATUS 12  // 0, or FAILED, or 1 + the level at which it converged
+#define ITERATIONS 13
+#define FAILED -1
+
+// What a chunk of samples adds up: the upper triangle of J^T J, J^T r, the sum of r^2 and of matches.
+#define SUMS 32
+#define GRADIENT 21
+#define SQUARES 27
+#define MATCHES 28
+#define LANDED 29
+
+#define CHUNK (16 * WIDTH)  // samples that a work-item adds up
+
+#if WIDTH == 16
+typedef float16 Lanes;
+typedef int16 Truth;  // of a comparison, lane by lane
+#define LOAD(address) vload16(0, address)
+#define STORE(value, address) vstore16(value, 0, address)
+#define STORE_INT(value, address) vstore16(value, 0, address)
+#define TO_INT(value) convert_int16(value)
+#elif WIDTH == 1
+typedef float Lanes;
+typedef int Truth;
+#define LOAD(address) (*(address))
+#define STORE(value, address) (*(address) = (value))
+#define STORE_INT(value, address) (*(address) = (value))
+#define TO_INT(value) ((int)(value))
+#else
+#error "WIDTH must be 1 or 16"
+#endif
+#define WHERE(condition, value) select((Lanes)0, value, condition)  // 0 elsewhere
+
+typedef struct {
+  Lanes x, y, z;
+} Vector;
+
+static inline Lanes inner(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+static inline Vector minus(Vector a, Vector b) {
+  const Vector difference = {a.x - b.x, a.y - b.y, a.z - b.z};
+  return difference;
+}
+
+static inline Vector only(Truth condition, Vector v) {
+  const Vector chosen = {WHERE(condition, v.x), WHERE(condition, v.y), WHERE(condition, v.z)};
+  return chosen;
+}
+
+static inline float total(Lanes v) {
+#if WIDTH == 1
+  return v;
+#else
+  const float8 a = v.lo + v.hi;
+  const float4 b = a.lo + a.hi;
+  return (b.x + b.y) + (b.z + b.w);
+#endif
+}
+
+static inline Vector load(global const float* samples, int padded, int first) {
+  const Vector v = {LOAD(samples + first), LOAD(samples + padded + first),
+                    LOAD(samples + 2 * padded + first)};
+  return v;
+}
+
+// A rotation about `from` and the place `to` that `from` goes to.
+typedef struct {
+  float R[9];
+  float from[3], to[3];
+} Motion;
+
+static inline Motion forward(global const float* pose, global const float* pivot) {
+  Motion motion;
+  for (int i = 0; i < 9; ++i) motion.R[i] = pose[i];
+  for (int i = 0; i < 3; ++i) {
+    motion.from[i] = pivot[i];
+    motion.to[i] = pose[PIVOT + i];
+  }
+  return motion;
+}
+
+static inline Motion backward(global const float* pose, global const float* pivot) {
+  Motion motion;
+  for (int i = 0; i < 9; ++i) motion.R[i] = pose[3 * (i % 3) + i / 3];
+  for (int i = 0; i < 3; ++i) {
+    motion.from[i] = pose[PIVOT + i];
+    motion.to[i] = pivot[i];
+  }
+  return motion;
+}
+
+static inline Vector turned(const Motion* m, Vector v) {
+  const Vector result = {m->R[0] * v.x + m->R[1] * v.y + m->R[2] * v.z,
+                         m->R[3] * v.x + m->R[4] * v.y + m->R[5] * v.z,
+                         m->R[6] * v.x + m->R[7] * v.y + m->R[8] * v.z};
+  return result;
+}
+
+static inline Vector arm_of(const Motion* m, Vector p) {
+  const Vector arm = {p.x - m->from[0], p.y - m->from[1], p.z - m->from[2]};
+  return turned(m, arm);
+}
+
+static inline Vector placed(const Motion* m, Vector arm) {
+  const Vector moved = {arm.x + m->to[0], arm.y + m->to[1], arm.z + m->to[2]};
+  return moved;
+}
+
+// The pixels that points project to; where `inside` does not hold, pixel 0. camera: fx, fy, cx, cy.
+static inline Truth project(Vector p, float4 camera, int2 size, Truth* inside) {
+  const Lanes scale = 1.0f / p.z;
+  const Lanes u = floor(camera.x * p.x * scale + (camera.z + 0.5f));
+  const Lanes v = floor(camera.y * p.y * scale + (camera.w + 0.5f));
+  *inside = p.z > (Lanes)0 && u >= (Lanes)0 && v >= (Lanes)0 && u < (Lanes)size.x && v < (Lanes)size.y;
+  return TO_INT(WHERE(*inside, v)) * size.x + TO_INT(WHERE(*inside, u));
+}
+
+// The vectors of a map at some pixels; those that are not finite count as none, (0, 0, 0).
+static inline Vector gather(Truth pixels, global const float* map) {
+  int at[WIDTH];
+  float x[WIDTH], y[WIDTH], z[WIDTH];
+  STORE_INT(pixels, at);
+#pragma unroll
+  for (int lane = 0; lane < WIDTH; ++lane) {
+    x[lane] = map[3 * at[lane]];
+    y[lane] = map[3 * at[lane] + 1];
+    z[lane] = map[3 * at[lane] + 2];
+  }
+  const Vector v = {LOAD(x), LOAD(y), LOAD(z)};
+  const Lanes farthest = FARTHEST;
+  return only(fabs(v.x) < farthest && fabs(v.y) < farthest && fabs(v.z) < farthest, v);
+}
+
+// ------------------------------------------------------------------------------------------------- samples
+
+// Every `stride`-th of the pixels that have a point.
+kernel void pack(int count, global const int* pixels, int stride, global const float* points,
+                 global const float* normals, int padded, global float* samples) {
+  const int i = get_global_id(0);
+  if (i >= padded) return;
+  float3 p = 0, n = 0;
+  if (i * stride < count) {
+    p = vload3(pixels[i * stride], points);
+    n = vload3(pixels[i * stride], normals);
+    if (!all(fabs(p) < FARTHEST)) p = 0;
+    if (!all(fabs(n) < FARTHEST)) n = 0;
+  }
+  samples[i] = p.x;
+  samples[padded + i] = p.y;
+  samples[2 * padded + i] = p.z;
+  samples[3 * padded + i] = n.x;
+  samples[4 * padded + i] = n.y;
+  samples[5 * padded + i] = n.z;
+}
+
+// Mean and root mean square distance from it, of the source's samples and of the target's: a work-item each.
+kernel void measure(int padded_source, global const float* source, int padded_target,
+                    global const float* target, global float4* extents) {
+  const int is_target = get_global_id(0);
+  if (is_target > 1) return;
+  global const float* samples = is_target ? target : source;
+  const int padded = is_target ? padded_target : padded_source;
+  float4 sum = 0;
+  for (int i = 0; i < padded; ++i)
+    if (samples[2 * padded + i] > 0)
+      sum += (float4)(samples[i], samples[padded + i], samples[2 * padded + i], 1);
+  const float3 mean = sum.xyz / fmax(sum.w, 1.0f);
+  float squares = 0;
+  for (int i = 0; i < padded; ++i) {
+    const float3 away = (float3)(samples[i], samples[padded + i], samples[2 * padded + i]) - mean;
+    if (samples[2 * padded + i] > 0) squares += dot(away, away);
+  }
+  extents[is_target] = (float4)(mean, fmax(sqrt(squares / fmax(sum.w, 1.0f)), 1e-3f));
+}
+
+// --------------------------------------------------------------------------------------------------- poses
+
+// What a pose is made of: the rows of R, t (mm), and whether it puts the middle of the source on that of the
+// target instead.
+#define START_SIZE 13
+#define SHIFT 9
+#define IS_CENTRED 12
+
+kernel void set_out(int count, global const float* starts, global const float4* extents,
+                    global float* poses) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  global const float* start = starts + START_SIZE * i;
+  global float* pose = poses + POSE_SIZE * i;
+  const float3 pivot = extents[0].xyz;
+  for (int row = 0; row < 3; ++row) {
+    vstore3(vload3(row, start), row, pose);
+    pose[PIVOT + row] = start[IS_CENTRED] != 0 ? ((global const float*)(extents + 1))[row]
+                                               : dot(vload3(row, start), pivot) + start[SHIFT + row];
+  }
+  for (int i = STATUS; i < POSE_SIZE; ++i) pose[i] = 0;
+}
+
+// Makes the pose with the least residual pose 0, to go on from, and the last one pose 1.
+kernel void choose(int count, global const float* residuals, global float* poses) {
+  int best = 0;
+  for (int i = 1; i < count - 1; ++i)
+    if (residuals[i] < residuals[best]) best = i;
+  for (int i = 0; i < POSE_SIZE; ++i) {
+    poses[i] = poses[POSE_SIZE * best + i];
+    poses[POSE_SIZE + i] = poses[POSE_SIZE * (count - 1) + i];
+  }
+  poses[STATUS] = 0;
+}
+
+// How far apart the points of a match may lie, `share` of the way from the coarsest level's distance down.
+static inline float farthest_match(global const float4* extents, float max_distance, float coarse,
+                                   float share) {
+  return max_distance * pow(fmax(coarse * extents[0].w / max_distance, 1.0f), share);
+}
+
+// ------------------------------------------------------------------------------------------------ equations
+
+// The normal equations of some poses, a chunk of samples of one pose a work-item; of a negative level
+// whatever became of the pose.
+kernel void accumulate(int count, int level, int padded, global const float* samples,
+                       global const float* poses, global const float4* extents, float4 camera, int2 size,
+                       global const float* points, global const float* normals, float max_distance,
+                       float coarse, float share, float least_cosine, global float* partials) {
+  const int chunks = (padded + CHUNK - 1) / CHUNK;
+  const int which = get_global_id(0) / chunks;
+  if (which >= count) return;
+  global const float* pose = poses + POSE_SIZE * which;
+  if (level >= 0 && (pose[STATUS] == FAILED || pose[STATUS] == level + 1)) return;
+  const Motion motion = forward(pose, (global const float*)extents);
+  const float far = farthest_match(extents, max_distance, coarse, share);
+  const int first = (get_global_id(0) - which * chunks) * CHUNK;
+  Lanes sums[LANDED + 1];
+#pragma unroll
+  for (int k = 0; k <= LANDED; ++k) sums[k] = 0;
+  for (int i = first; i < min(first + CHUNK, padded); i += WIDTH) {
+    const Vector p = load(samples, padded, i);
+    const Vector arm = arm_of(&motion, p);
+    const Vector moved = placed(&motion, arm);
+    Truth inside;
+    const Truth pixels = project(moved, camera, size, &inside);
+    const Vector q = gather(pixels, points);
+    const Vector n = gather(pixels, normals);
+    const Vector own = turned(&motion, load(samples + 3 * padded, padded, i));
+    const Vector offset = minus(moved, q);
+    const Truth lands = inside && p.z > (Lanes)0 && q.z > (Lanes)0;
+    const Truth matches = lands && inner(n, n) > (Lanes)0 && inner(offset, offset) <= (Lanes)(far * far) &&
+                          (inner(own, n) >= (Lanes)least_cosine || inner(own, own) == (Lanes)0);
+    const Lanes normal[3] = {WHERE(matches, n.x), WHERE(matches, n.y), WHERE(matches, n.z)};
+    const Lanes away[3] = {WHERE(matches, offset.x), WHERE(matches, offset.y), WHERE(matches, offset.z)};
+    const Lanes lever[3] = {arm.x, arm.y, arm.z};
+    const Lanes r = plane_distance(away, normal);
+    Lanes J[6];
+    plane_distance_jacobian(lever, normal, J);
+    int k = 0;
+#pragma unroll
+    for (int a = 0; a < 6; ++a)
+#pragma unroll
+      for (int b = a; b < 6; ++b) sums[k++] += J[a] * J[b];
+#pragma unroll
+    for (int a = 0; a < 6; ++a) sums[k++] += J[a] * r;
+    sums[SQUARES] += r * r;
+    sums[MATCHES] += WHERE(matches, (Lanes)1);
+    sums[LANDED] += WHERE(lands, (Lanes)1);
+  }
+  global float* partial = partials + SUMS * get_global_id(0);
+#pragma unroll
+  for (int k = 0; k <= LANDED; ++k) partial[k] = total(sums[k]);
+  for (int k = LANDED + 1; k < SUMS; ++k) partial[k] = 0;
+}
+
+// Sums of all chunks of a pose, in order.
+static inline void add_chunks(int which, int padded, global const float* partials, float* sums) {
+  const int chunks = (padded + CHUNK - 1) / CHUNK;
+  float16 low = 0, high = 0;
+  for (int chunk = which * chunks; chunk < (which + 1) * chunks; ++chunk) {
+    low += vload16(2 * chunk, partials);
+    high += vload16(2 * chunk + 1, partials);
+  }
+  vstore16(low, 0, sums);
+  vstore16(high, 1, sums);
+}
+
+kernel void add_up(int padded, global const float* partials, global float* sums) {
+  float added[SUMS];
+  add_chunks(0, padded, partials, added);
+  for (int k = 0; k < SUMS; ++k) sums[k] = added[k];
+}
+
+// Solves A x = b for a positive definite A by its factor L L^T, in place; b becomes x. Whether it could.
+static inline int solve_cholesky(float* A, float* b) {
+  for (int j = 0; j < 6; ++j) {
+    for (int i = 0; i < j; ++i)
+      for (int row = j; row < 6; ++row) A[6 * row + j] -= A[6 * row + i] * A[6 * j + i];
+    if (!(A[7 * j] > 0)) return 0;
+    const float scale = rsqrt(A[7 * j]);
+    for (int row = j; row < 6; ++row) A[6 * row + j] *= scale;
+  }
+  for (int j = 0; j < 6; ++j) {
+    for (int i = 0; i < j; ++i) b[j] -= A[6 * j + i] * b[i];
+    b[j] /= A[7 * j];
+  }
+  for (int j = 5; j >= 0; --j) {
+    for (int i = j + 1; i < 6; ++i) b[j] -= A[6 * i + j] * b[i];
+    b[j] /= A[7 * j];
+  }
+  return 1;
+}
+
+static inline float3 turn_by(float3 axis, float sine, float cosine, float3 v) {
+  return cosine * v + sine * cross(axis, v) + (1 - cosine) * dot(axis, v) * axis;
+}
+
+// Turns the rows of R as a matrix: R <- exp(turn) R, made orthonormal again.
+static inline void turn_pose(float3 turn, global float* pose) {
+  const float angle = length(turn);
+  const float3 axis = angle > 0 ? turn / angle : (float3)(1, 0, 0);
+  const float sine = sin(angle), cosine = cos(angle);
+  float3 x = turn_by(axis, sine, cosine, (float3)(pose[0], pose[3], pose[6]));
+  float3 y = turn_by(axis, sine, cosine, (float3)(pose[1], pose[4], pose[7]));
+  x = x / length(x);
+  y = y - dot(x, y) * x;
+  y = y / length(y);
+  const float3 z = cross(x, y);
+  vstore3((float3)(x.x, y.x, z.x), 0, pose);
+  vstore3((float3)(x.y, y.y, z.y), 1, pose);
+  vstore3((float3)(x.z, y.z, z.z), 2, pose);
+}
+
+// One Gauss-Newton step of each pose. Turns are solved for in mm at the object's extent, so that all six
+// unknowns are alike. damping: share of the mean diagonal, which keeps still what the matches do not tell;
+// tolerance: share of the level's distance that a last step stays below.
+kernel void take_step(int count, int level, int padded, global const float* partials,
+                      global const float4* extents, float max_distance, float coarse, float share,
+                      float fewest, float damping, float tolerance, global float* poses) {
+  const int which = get_global_id(0);
+  if (which >= count) return;
+  global float* pose = poses + POSE_SIZE * which;
+  if (pose[STATUS] == FAILED || pose[STATUS] == level + 1) return;
+  float sums[SUMS];
+  add_chunks(which, padded, partials, sums);
+  pose[ITERATIONS] += 1;
+  const float extent = extents[0].w;
+  float A[36], b[6];
+  float trace = 0;
+  int k = 0;
+  for (int i = 0; i < 6; ++i) {
+    const float unit = i < 3 ? 1 / extent : 1;
+    for (int j = i; j < 6; ++j) A[6 * j + i] = sums[k++] * unit * (j < 3 ? 1 / extent : 1);
+    b[i] = -sums[GRADIENT + i] * unit;
+    trace += A[7 * i];
+  }
+  for (int i = 0; i < 6; ++i) A[7 * i] += damping * trace / 6;
+  if (!(sums[MATCHES] >= fewest) || !solve_cholesky(A, b)) {
+    pose[STATUS] = FAILED;
+    return;
+  }
+  const float3 turn = (float3)(b[0], b[1], b[2]) / extent, shift = (float3)(b[3], b[4], b[5]);
+  turn_pose(turn, pose);
+  vstore3(vload3(PIVOT / 3, pose) + shift, PIVOT / 3, pose);
+  const float short_step = tolerance * farthest_match(extents, max_distance, coarse, share);
+  if (length(turn) * extent < short_step && length(shift) < short_step) pose[STATUS] = level + 1;
+}
+
+// ------------------------------------------------------------------------------------------------- judgement
+
+// The cut distances of one chunk of samples from the map that they are moved into. Where the map shows
+// nothing, or something further away than `cut`, the distance is `cut`. What faces away from the camera is
+// hidden, what leaves its view is not known: both do not count.
+static inline float2 compare(const Motion* motion, int first, int padded, global const float* samples,
+                             float4 camera, int2 size, global const float* points, float cut) {
+  Lanes sum = 0, known = 0;
+  for (int i = first; i < min(first + CHUNK, padded); i += WIDTH) {
+    const Vector p = load(samples, padded, i);
+    const Vector moved = placed(motion, arm_of(motion, p));
+    const Vector normal = turned(motion, load(samples + 3 * padded, padded, i));
+    Truth inside;
+    const Vector q = gather(project(moved, camera, size, &inside), points);
+    const Vector offset = minus(moved, q);
+    const Truth counts = inside && p.z > (Lanes)0 && inner(normal, moved) <= (Lanes)0;
+    const Lanes distance = fmin(sqrt(inner(offset, offset)), (Lanes)cut);
+    sum += WHERE(counts, select((Lanes)cut, distance, q.z > (Lanes)0));
+    known += WHERE(counts, (Lanes)1);
+  }
+  return (float2)(total(sum), total(known));
+}
+
+// Both ways: the source's samples against the target's map, then the target's samples, moved back, against
+// the source's.
+kernel void judge(int count, int padded_source, global const float* source, int padded_target,
+                  global const float* target, global const float* poses, global const float4* extents,
+                  float4 camera_source, int2 size_source, global const float* source_points,
+                  float4 camera_target, int2 size_target, global const float* target_points, float cut,
+                  global float2* partials) {
+  const int source_chunks = (padded_source + CHUNK - 1) / CHUNK;
+  const int chunks = source_chunks + (padded_target + CHUNK - 1) / CHUNK;
+  const int which = get_global_id(0) / chunks, chunk = get_global_id(0) - which * chunks;
+  if (which >= count) return;
+  global const float* pose = poses + POSE_SIZE * which;
+  global const float* pivot = (global const float*)extents;
+  const float farthest = cut * extents[0].w;
+  if (chunk < source_chunks) {
+    const Motion motion = forward(pose, pivot);
+    partials[get_global_id(0)] = compare(&motion, chunk * CHUNK, padded_source, source, camera_target,
+                                         size_target, target_points, farthest);
+  } else {
+    const Motion motion = backward(pose, pivot);
+    partials[get_global_id(0)] = compare(&motion, (chunk - source_chunks) * CHUNK, padded_target, target,
+                                         camera_source, size_source, source_points, farthest);
+  }
+}
+
+// The mean of both ways' means, in mm; one that knows too few samples counts as cut.
+kernel void verdict(int count, int padded_source, int padded_target, global const float2* partials,
+                    global const float4* extents, float cut, float2 fewest, global float* residuals) {
+  const int which = get_global_id(0);
+  if (which >= count) return;
+  const int source_chunks = (padded_source + CHUNK - 1) / CHUNK;
+  const int chunks = source_chunks + (padded_target + CHUNK - 1) / CHUNK;
+  float2 there = 0, back = 0;
+  for (int chunk = 0; chunk < source_chunks; ++chunk) there += partials[which * chunks + chunk];
+  for (int chunk = source_chunks; chunk < chunks; ++chunk) back += partials[which * chunks + chunk];
+  const float farthest = cut * extents[0].w;
+  residuals[which] = 0.5f * ((there.y >= fewest.x ? there.x / there.y : farthest) +
+                             (back.y >= fewest.y ? back.x / back.y : farthest));
+}

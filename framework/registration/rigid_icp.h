@@ -1,0 +1,142 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "framework/device/array.h"
+#include "framework/device/device.h"
+#include "framework/geometry/camera.h"
+
+namespace pliant {
+
+struct RigidIcpOptions {
+  double max_distance = 10;    ///< mm; matches further apart are rejected
+  double max_angle = 0.34907;  ///< radians (20 degrees); matches whose normals differ by more are rejected
+  int step = 1;                ///< every so-many-th point of the source is matched, 1: all
+  int levels = 4;              ///< from coarse to fine
+  int iterations = 10;         ///< at most, in each level
+  /// Of the coarsest level, in extents of the source (root mean square distance of its points from their
+  /// mean). The levels go from there down to max_distance by equal factors.
+  double coarse_distance = 1;
+  double coarse_angle = 1.309;  ///< radians (75 degrees), likewise, by equal steps
+  /// Radians. Beside the given start, starts are tried that put the middle of the source on that of the
+  /// target, unturned and turned by this about each axis, both ways; 0: only the given one.
+  double search_angle = 0.5236;
+};
+
+/// A surface as a camera sees it. Points (mm) and unit normals are x y z a pixel, (0, 0, 0) where there is
+/// none.
+struct SeenSurface {
+  const Camera& camera;
+  const Array<float>& points;
+  const Array<float>& normals;
+  const Array<int>& pixels;  ///< row-major offsets of pixels that have a point
+};
+
+/// What one matching asks for: J^T J and J^T r of the point-to-plane distances [Eq. 3.2] of the accepted
+/// matches by a small turn about a pivot (radians), then a shift (mm).
+struct RigidEquations {
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();  ///< where the middle of the source is moved to, mm
+  Eigen::Matrix<double, 6, 6> JtJ = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> Jtr = Eigen::Matrix<double, 6, 1>::Zero();
+  double squares = 0;  ///< sum of squared distances, mm^2
+  int matches = 0;     ///< that are accepted
+  int landed = 0;      ///< points whose pixel has a point of the target
+};
+
+/// How ill a pose explains what both cameras saw: the mean distance of the moved source from the target at
+/// the same pixel, and of the target, moved back, from the source. A point where the other map has nothing,
+/// or something further away, is `cut` away. What faces away in the other camera, or leaves its view, does
+/// not count; with less than a quarter left a direction counts as `cut`.
+struct TwoWayResidual {
+  double mean = 0;  ///< of both directions, mm
+  double cut = 0;   ///< a quarter of the source's extent, mm
+};
+
+struct RigidIcpResult {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< moves the source to the target; mm
+  int samples = 0;        ///< points of the source that were matched in the last level
+  int inliers = 0;        ///< of them, how many have an accepted match
+  double mean_error = 0;  ///< root mean square distance of the inliers to the planes of their matches, mm
+  TwoWayResidual before;  ///< at the start that was given
+  TwoWayResidual after;   ///< at `pose`
+  /// Least eigenvalue over the greatest of J^T J at `pose`, turns measured in mm at the source's extent: near
+  /// 0 where the surface may slide or turn along itself.
+  double conditioning = 0;
+  int iterations = 0;  ///< in all levels
+  /// Whether the last step of the last level was shorter than a thousandth of max_distance.
+  bool converged = false;
+  /// Whether the pose is no answer: too few accepted matches, or no finite step.
+  bool failed = false;
+  std::string reason;  ///< why it failed or did not converge; else empty
+};
+
+/// Rigid ICP on the device [thesis 3.3]: projective matches with constant weights, rejected by distance and
+/// by the angle between normals; point to plane; coarse to fine. The host waits once, at the end. Buffers are
+/// kept between calls. The same input gives the same bits.
+class RigidIcp {
+ public:
+  RigidIcp(Device& device, const RigidIcpOptions& options);
+
+  /// From `start` (mm, camera frame), or from further starts around it (RigidIcpOptions::search_angle).
+  RigidIcpResult align(const SeenSurface& source, const SeenSurface& target, const Eigen::Isometry3d& start);
+
+  TwoWayResidual residual(const SeenSurface& source, const SeenSurface& target,
+                          const Eigen::Isometry3d& pose);
+
+  /// One matching at a pose, by the limits of the last level.
+  RigidEquations equations(const SeenSurface& source, const SeenSurface& target,
+                           const Eigen::Isometry3d& pose);
+
+ private:
+  /// Points and normals of every so-many-th pixel, coordinate by coordinate.
+  struct Samples {
+    Array<float> values;
+    int count = 0;
+    int padded = 0;
+  };
+  struct Level {
+    int number;
+    double share;  ///< of the way from max_distance to the coarsest level's distance
+    Samples samples;
+  };
+
+  struct Start {
+    Eigen::Isometry3d pose;
+    bool is_centred;  ///< puts the middle of the source on that of the target, only turned by `pose`
+  };
+
+  void prepare(const SeenSurface& source, const SeenSurface& target);
+  void pack(const SeenSurface& surface, int stride, Samples& samples);
+  void set_out(const std::vector<Start>& starts);
+  void refine(const Level& level, int poses, const SeenSurface& target);
+  void accumulate(const Level& level, int number, int poses, const SeenSurface& target);
+  void judge(int poses, const SeenSurface& source, const SeenSurface& target);
+  Eigen::Vector4d read_extent();
+  std::vector<TwoWayResidual> read_residuals(std::size_t count);
+  RigidEquations read_equations();
+  RigidIcpResult read_result();
+
+  Device* device_;
+  RigidIcpOptions options_;
+  std::vector<Level> levels_;
+  Samples target_samples_;
+  Array<float> extents_;
+  Array<float> starts_;
+  Array<float> poses_;
+  Array<float> partials_;
+  Array<float> sums_;
+  Array<float> judged_;
+  Array<float> residuals_;
+};
+
+/// Plain C++ references of RigidIcp::equations and RigidIcp::residual, over all pixels of the surfaces.
+/// `pivot` and `cut` as they are in what these give.
+RigidEquations rigid_equations_reference(const SeenSurface& source, const SeenSurface& target,
+                                         const Eigen::Isometry3d& pose, const Eigen::Vector3d& pivot,
+                                         const RigidIcpOptions& options);
+TwoWayResidual two_way_residual_reference(const SeenSurface& source, const SeenSurface& target,
+                                          const Eigen::Isometry3d& pose, double cut);
+
+}  // namespace pliant
