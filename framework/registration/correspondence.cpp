@@ -45,6 +45,26 @@ void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, cons
              constraints.confidence.write_device(device));
 }
 
+void ProjectiveCorrespondence::measure(Device& device, const PointSet& moved, const Target& target,
+                                       Array<float>& distances) const {
+  auto kernel = device.kernel(embedded::framework_registration_projection_cl, "measure");
+  device.run("residual", kernel, distances.size(), 64, static_cast<cl_int>(distances.size()),
+             moved.points.device(device), moved.normals.device(device), pinhole(target.camera),
+             image_size(target.camera), target.points.device(device), target.normals.device(device),
+             max_distance_, least_cosine_, distances.write_device(device));
+}
+
+void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const Target& target,
+                                                 std::vector<float>& distances) const {
+  distances.assign(moved.points.size() / 3, -1);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const Eigen::Vector3f point = at(moved.points, i);
+    const auto pixel = target_pixel_reference(target, point);
+    if (pixel && accepts(target, *pixel, point, at(moved.normals, i)))
+      distances[i] = (point - at(target.points, *pixel)).norm();
+  }
+}
+
 bool ProjectiveCorrespondence::accepts(const Target& target, std::size_t pixel, const Eigen::Vector3f& point,
                                        const Eigen::Vector3f& normal) const {
   const Eigen::Vector3f target_normal = finite_or_none(target.normals, pixel);

@@ -98,19 +98,35 @@ kernel void find_in_force(int count, global const float* confidence, global int*
   *found = i < count;
 }
 
-// Per work-item the residuals of CHUNK points, each (-1: it meets no target point), and in order their sum,
-// how many there are, and how many points are lost: not finite, or so far away that squares are not.
-kernel void residuals(int count, global const float* moved, float4 camera, int2 size,
-                      global const float* target_points, global float* residual, global float4* partials) {
+// Distance of each point to the target point at its pixel where that is acceptable, else -1.
+kernel void measure(int count, global const float* moved, global const float* normals, float4 camera,
+                    int2 size, global const float* target_points, global const float* target_normals,
+                    float max_distance, float least_cosine, global float* distances) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const float3 p = vload3(i, moved);
+  const int pixel = target_pixel(p, camera, size, target_points);
+  const int is_accepted = pixel >= 0 && is_acceptable(p, vload3(i, normals), pixel, target_points,
+                                                      target_normals, max_distance, least_cosine);
+  distances[i] = is_accepted ? distance(p, vload3(pixel, target_points)) : -1;
+}
+
+// Per work-item of CHUNK points, in order: the sum of the residuals that are known, how many those are, how
+// many points have one or project onto a target point, and how many points are lost: not finite, or so far
+// away that squares are not.
+kernel void sum_residuals(int count, global const float* moved, float4 camera, int2 size,
+                          global const float* target_points, global const float* residual,
+                          global float4* partials) {
   const int first = get_global_id(0) * CHUNK;
   if (first >= count) return;
   float4 sum = 0;
   for (int i = first; i < min(first + CHUNK, count); ++i) {
     const float3 p = vload3(i, moved);
-    const int pixel = target_pixel(p, camera, size, target_points);
-    residual[i] = pixel >= 0 ? distance(p, vload3(pixel, target_points)) : -1;
-    if (pixel >= 0) sum += (float4)(residual[i], 1, 0, 0);
-    if (!all(fabs(p) < FARTHEST)) sum.z += 1;
+    if (residual[i] >= 0)
+      sum += (float4)(residual[i], 1, 1, 0);
+    else if (target_pixel(p, camera, size, target_points) >= 0)
+      sum.z += 1;
+    if (!all(fabs(p) < FARTHEST)) sum.w += 1;
   }
   partials[get_global_id(0)] = sum;
 }

@@ -135,7 +135,7 @@ class Registration {
         skeleton_(make_skeleton(scene_, method, device, nodes_->points(), times_)),
         model_(make_new_model()),
         moved_(unwritten(scene_.rest)),
-        meter_(device, scene_.target, scene_.aligned.size()) {
+        meter_(device, *method.correspondence, scene_.target, scene_.aligned.size()) {
     update_source();
   }
 
@@ -195,7 +195,7 @@ class Registration {
   }
 
   void measure_start() {
-    const Residual residual = meter_.measure(moved_.points);
+    const Residual residual = meter_.measure(moved_);
     if (residual.lost > 0)
       throw NumericalError(
           fmt::format("{}: {} point(s) of the source are not finite where the alignment puts them",
@@ -215,7 +215,7 @@ class Registration {
       match();
       solver_->solve();
       update_source();
-      judge(meter_.measure(moved_.points));
+      judge(meter_.measure(moved_));
     } catch (const NumericalError& error) {
       end("failed", error.what());
     }
@@ -236,6 +236,8 @@ class Registration {
       end("failed", "no point of the source projects onto a point of the target any more");
     else if (!is_pulled())
       end("no_constraints", "no constraint is in force: all matches are rejected, or all weights are zero");
+    else if (residual.matched == 0)
+      end("failed", "no point of the source has a match any more that is not rejected");
     else
       residuals_.push_back(residual.mean);
   }
