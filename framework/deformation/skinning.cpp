@@ -73,37 +73,34 @@ void order_by_place(const std::vector<Eigen::Vector3f>& nodes, std::vector<int>:
 
 /// Nodes as the kernel wants them; see skinning.cl.
 struct GroupedNodes {
-  std::size_t stride = 0;
-  std::size_t box_stride = 0;
+  std::size_t groups = 0;
   Array<float> rows;
   Array<int> ids;
   Array<float> boxes;
 };
 
-GroupedNodes group_nodes(const std::vector<Eigen::Vector3f>& nodes, std::size_t width) {
+GroupedNodes group_nodes(const std::vector<Eigen::Vector3f>& nodes) {
   std::vector<int> ids(nodes.size());
   std::iota(ids.begin(), ids.end(), 0);
   order_by_place(nodes, ids.begin(), ids.end());
   const std::size_t groups = (nodes.size() + group_size - 1) / group_size;
   const std::size_t stride = groups * group_size;
-  const std::size_t box_stride = (groups + width - 1) / width * width;
   std::vector<float> rows(3 * stride, far_away);
-  std::vector<float> boxes(6 * box_stride, far_away);
+  std::vector<float> boxes(6 * groups);
   for (std::size_t place = 0; place < nodes.size(); ++place) {
     const Eigen::Vector3f& node = nodes[static_cast<std::size_t>(ids[place])];
     const bool is_first = place % group_size == 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float value = node[static_cast<Eigen::Index>(axis)];
       rows[axis * stride + place] = value;
-      float& low = boxes[axis * box_stride + place / group_size];
-      float& high = boxes[(3 + axis) * box_stride + place / group_size];
+      float& low = boxes[axis * groups + place / group_size];
+      float& high = boxes[(3 + axis) * groups + place / group_size];
       low = is_first ? value : std::min(low, value);
       high = is_first ? value : std::max(high, value);
     }
   }
   ids.resize(stride, std::numeric_limits<int>::max());
-  return {stride, box_stride, Array<float>(std::move(rows)), Array<int>(std::move(ids)),
-          Array<float>(std::move(boxes))};
+  return {groups, Array<float>(std::move(rows)), Array<int>(std::move(ids)), Array<float>(std::move(boxes))};
 }
 
 }  // namespace
@@ -111,16 +108,18 @@ GroupedNodes group_nodes(const std::vector<Eigen::Vector3f>& nodes, std::size_t 
 Influences compute_influences(Device& device, const Array<float>& points,
                               const std::vector<Eigen::Vector3f>& nodes, int nearest) {
   const int k = checked_nearest(nodes.size(), nearest);
-  const GroupedNodes grouped = group_nodes(nodes, static_cast<std::size_t>(device.width()));
+  const GroupedNodes grouped = group_nodes(nodes);
   const auto point_count = points.size() / 3;
   const auto entries = point_count * static_cast<std::size_t>(k);
   Influences influences{k, Array<int>(entries), Array<float>(entries)};
   auto kernel = device.kernel(embedded::framework_deformation_skinning_cl, "influences",
                               fmt::format("-DK={} -DGROUP={} -DHAS_NEXT={}", k, group_size,
                                           static_cast<int>(nodes.size() > static_cast<std::size_t>(k))));
-  device.run("weights", kernel, point_count, 64, points.device(device), static_cast<cl_int>(point_count),
-             grouped.rows.device(device), static_cast<cl_int>(grouped.stride), grouped.ids.device(device),
-             grouped.boxes.device(device), static_cast<cl_int>(grouped.box_stride),
+  const auto width = static_cast<std::size_t>(device.width());
+  device.run("weights", kernel, (point_count + width - 1) / width, 64 / width, points.device(device),
+             static_cast<cl_int>(point_count), grouped.rows.device(device),
+             static_cast<cl_int>(group_size * grouped.groups), grouped.ids.device(device),
+             grouped.boxes.device(device), static_cast<cl_int>(grouped.groups),
              influences.nodes.write_device(device), influences.weights.write_device(device));
   return influences;
 }
