@@ -29,6 +29,12 @@ bool any_in_force(Device& device, const Constraints& constraints) {
   return found.host().front() != 0;
 }
 
+void weigh(Device& device, const Array<float>& weights, Constraints& constraints) {
+  auto kernel = device.kernel(embedded::framework_registration_projection_cl, "weigh");
+  device.run("match", kernel, constraints.size(), 64, static_cast<cl_int>(constraints.size()),
+             weights.device(device), constraints.confidence.write_device(device));
+}
+
 ProjectiveCorrespondence::ProjectiveCorrespondence(double max_distance, double max_angle, int search_radius)
     : max_distance_(static_cast<float>(max_distance)),
       least_cosine_(static_cast<float>(std::cos(max_angle))),

@@ -27,6 +27,9 @@ class Correspondence {
 /// Whether any of the constraints has a confidence above 0. Waits for everything enqueued so far.
 bool any_in_force(Device& device, const Constraints& constraints);
 
+/// Multiplies the confidence of each constraint by its weight; only enqueues.
+void weigh(Device& device, const Array<float>& weights, Constraints& constraints);
+
 /// Adds `projective`.
 void register_correspondences(Registry& registry);
 

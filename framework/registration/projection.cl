@@ -89,6 +89,11 @@ kernel void match(int count, global const int* selected, global const float* res
   confidence[i] = pixel >= 0 ? 1 : 0;
 }
 
+kernel void weigh(int count, global const float* weights, global float* confidence) {
+  const int i = get_global_id(0);
+  if (i < count) confidence[i] *= weights[i];
+}
+
 #define CHUNK 256
 
 // One work-item, which stops at the first constraint in force.

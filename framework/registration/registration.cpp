@@ -34,7 +34,8 @@ struct Skeleton {
 
 /// Constraints and the problem that they and a skeleton make: what each adaptation makes anew.
 struct Model {
-  Array<int> selected;  ///< the points that are constrained
+  Array<int> selected;   ///< the points that are constrained
+  Array<float> weights;  ///< of these; empty: all the same
   std::shared_ptr<Constraints> constraints;
   std::unique_ptr<Problem> problem;
 };
@@ -105,7 +106,8 @@ Skeleton make_skeleton(const Scene& scene, const Method& method, Device& device,
 }
 
 Model make_model(const Scene& scene, const Method& method, Device& device, const Skeleton& skeleton,
-                 const std::vector<int>& samples, int stage) {
+                 const PointSelection& selection, int stage) {
+  const std::vector<int>& samples = selection.points();
   check_selection(scene, "constraint", samples);
   auto constraints =
       make_constraints(pick(scene.aligned.points, samples), pick_influences(skeleton.influences, samples));
@@ -113,7 +115,7 @@ Model make_model(const Scene& scene, const Method& method, Device& device, const
       std::make_unique<Problem>(DeformationGraph{skeleton.positions, skeleton.edges},
                                 make_terms(device, method, scene, skeleton.positions, constraints, stage),
                                 method.length_unit, *method.transform);
-  return {Array<int>(samples), std::move(constraints), std::move(problem)};
+  return {Array<int>(samples), Array<float>(selection.weights()), std::move(constraints), std::move(problem)};
 }
 
 /// Room for a deformed set of points.
@@ -141,6 +143,7 @@ class Registration {
 
   void match() {
     method_.correspondence->match(device_, moved_, model_.selected, scene_.target, *model_.constraints);
+    if (!model_.weights.empty()) weigh(device_, model_.weights, *model_.constraints);
   }
 
   void run(const ProgressSink& progress) {
@@ -282,15 +285,18 @@ class Registration {
     return true;
   }
 
-  /// Only a softer or a new graph promises more where nothing was gained: adaptive constraints seldom stay
-  /// the same.
+  /// Only a softer or a first new graph promises more where nothing was gained: adaptive constraints seldom
+  /// stay the same, and a graph that has grown without gaining would grow on.
   void adapt() {
+    const bool was_stuck = is_stuck();
     const bool is_softer = relax();
-    const bool has_new_nodes = adapt_nodes();
-    if (!is_softer && !has_new_nodes && is_stuck())
+    const bool may_grow = is_softer || !was_stuck || !has_grown_;
+    const bool has_new_nodes = may_grow && adapt_nodes();
+    if (!is_softer && !has_new_nodes && was_stuck)
       termination_ = "no_progress";
     else if (const bool has_new_samples = adapt_samples(); is_softer || has_new_nodes || has_new_samples)
       renew();
+    has_grown_ = has_grown_ || has_new_nodes;
   }
 
   /// Refines and collapses [Alg. 2, 3]; whether there are other nodes.
@@ -313,9 +319,7 @@ class Registration {
     if (termination_.empty()) rebuild();
   }
 
-  Model make_new_model() {
-    return make_model(scene_, method_, device_, skeleton_, samples_->points(), stage_);
-  }
+  Model make_new_model() { return make_model(scene_, method_, device_, skeleton_, *samples_, stage_); }
 
   /// Makes the model of the graph and constraints anew; the deformation so far is kept.
   void rebuild() {
@@ -346,6 +350,7 @@ class Registration {
   std::unique_ptr<PointSelection> samples_;
   int stage_ = 0;  ///< of relaxation
   int stage_began_ = 0;
+  bool has_grown_ = false;  ///< whether the graph is another than at first
   Skeleton skeleton_;
   Model model_;
   PointSet moved_;

@@ -35,7 +35,7 @@ std::map<std::pair<int, int>, Mask> masks_of(const Surface& surface, int step) {
 /// Which places of a full mask the case in the middle takes, as the selection itself shows them.
 std::set<std::pair<int, int>> spread_places(Device& device, int step) {
   const Surface mask = square(step);
-  const auto samples = AdaptiveSampler(step, threshold).select(device, mask, Camera{});
+  const auto samples = AdaptiveSampler(step, threshold, false).select(device, mask, Camera{});
   samples->adapt(device, Array<float>(std::vector<float>(mask.size(), 1.5F)));
   std::set<std::pair<int, int>> places;
   for (const int point : samples->points()) {
@@ -73,7 +73,7 @@ std::vector<int> select_reference(const Surface& surface, int step, const std::v
 class AdaptiveSamplerTest : public testing::Test {
  protected:
   std::unique_ptr<PointSelection> select(const Surface& surface, int step) {
-    return AdaptiveSampler(step, threshold).select(device_, surface, Camera{});
+    return AdaptiveSampler(step, threshold, false).select(device_, surface, Camera{});
   }
 
   std::size_t count_after(const Surface& surface, int step, float residual) {
