@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/deformation/pick_weights.cl.embed.h"
 #include "framework/deformation/skinning.cl.embed.h"
 
 namespace pliant {
@@ -29,15 +30,25 @@ struct NodeMembers {
   std::vector<std::size_t> points;
 };
 
-/// A point that is moved by the same nodes as the one before it tells no new edge and is left out: most are.
+bool are_equal(const int* a, const int* b, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (a[i] != b[i]) return false;
+  return true;
+}
+
+/// A point that is moved by the same nodes as the one before it, in whatever order, tells no new edge and is
+/// left out: most are.
 NodeMembers members_of_nodes(const std::vector<int>& nodes, std::size_t k, std::size_t node_count) {
   std::vector<std::size_t> telling;
   std::vector<std::size_t> first(node_count + 1, 0);
+  std::vector<int> set(k), last(k, -1);
   for (std::size_t entry = 0; entry + k <= nodes.size(); entry += k) {
-    const auto point = nodes.begin() + static_cast<std::ptrdiff_t>(entry);
-    if (entry > 0 &&
-        std::equal(point, point + static_cast<std::ptrdiff_t>(k), point - static_cast<std::ptrdiff_t>(k)))
-      continue;
+    const int* point = nodes.data() + entry;
+    if (entry > 0 && are_equal(point, point - k, k)) continue;
+    set.assign(point, point + k);
+    std::sort(set.begin(), set.end());
+    if (set == last) continue;
+    std::swap(set, last);
     telling.push_back(entry / k);
     for (std::size_t slot = 0; slot < k; ++slot) ++first[static_cast<std::size_t>(nodes[entry + slot]) + 1];
   }
@@ -124,20 +135,19 @@ Influences compute_influences(Device& device, const Array<float>& points,
   return influences;
 }
 
-Influences pick_influences(const Influences& influences, const std::vector<int>& points) {
+Influences pick_influences(Device& device, const Influences& influences, const Array<int>& points) {
   const auto k = static_cast<std::size_t>(influences.per_point);
   std::vector<int> nodes;
-  std::vector<float> weights;
   nodes.reserve(k * points.size());
-  weights.reserve(k * points.size());
-  for (const int point : points) {
-    const auto entry = static_cast<std::ptrdiff_t>(k * static_cast<std::size_t>(point));
-    const auto first_node = influences.nodes.host().begin() + entry;
-    const auto first_weight = influences.weights.host().begin() + entry;
-    nodes.insert(nodes.end(), first_node, first_node + influences.per_point);
-    weights.insert(weights.end(), first_weight, first_weight + influences.per_point);
+  for (const int point : points.host()) {
+    const int* first = influences.nodes.host().data() + k * static_cast<std::size_t>(point);
+    nodes.insert(nodes.end(), first, first + k);
   }
-  return {influences.per_point, Array<int>(std::move(nodes)), Array<float>(std::move(weights))};
+  Array<float> weights(nodes.size());
+  auto kernel = device.kernel(embedded::framework_deformation_pick_weights_cl, "pick_weights");
+  device.run("weights", kernel, nodes.size(), 64, static_cast<cl_int>(nodes.size()), influences.per_point,
+             points.device(device), influences.weights.device(device), weights.write_device(device));
+  return {influences.per_point, Array<int>(std::move(nodes)), std::move(weights)};
 }
 
 Influences compute_influences_reference(const std::vector<float>& points,

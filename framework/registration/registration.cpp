@@ -109,13 +109,14 @@ Model make_model(const Scene& scene, const Method& method, Device& device, const
                  const PointSelection& selection, int stage) {
   const std::vector<int>& samples = selection.points();
   check_selection(scene, "constraint", samples);
-  auto constraints =
-      make_constraints(pick(scene.aligned.points, samples), pick_influences(skeleton.influences, samples));
+  Array<int> selected(samples);
+  auto constraints = make_constraints(pick(scene.aligned.points, samples),
+                                      pick_influences(device, skeleton.influences, selected));
   auto problem =
       std::make_unique<Problem>(DeformationGraph{skeleton.positions, skeleton.edges},
                                 make_terms(device, method, scene, skeleton.positions, constraints, stage),
                                 method.length_unit, *method.transform);
-  return {Array<int>(samples), Array<float>(selection.weights()), std::move(constraints), std::move(problem)};
+  return {std::move(selected), Array<float>(selection.weights()), std::move(constraints), std::move(problem)};
 }
 
 /// Room for a deformed set of points.
@@ -326,7 +327,8 @@ class Registration {
     Array<float> start = model_.problem->unknowns();
     if (nodes_->points() != skeleton_.nodes) {
       Skeleton next = make_skeleton(scene_, method_, device_, nodes_->points(), times_);
-      start = carry_over({skeleton_.nodes, skeleton_.influences, start}, next.nodes, scene_.aligned.points);
+      start = carry_over(device_, {skeleton_.nodes, skeleton_.influences, start}, next.nodes,
+                         scene_.aligned.points);
       skeleton_ = std::move(next);
     }
     model_ = make_new_model();

@@ -228,6 +228,15 @@ TEST(Constraints, AreInForceWhenOneIs) {
   }
 }
 
+TEST(Constraints, AreWeighedOnTheDevice) {
+  Device device;
+  Constraints constraints;
+  constraints.points = Array<float>(std::vector<float>(9));
+  constraints.confidence = Array<float>(std::vector<float>{1, 0, 0.5F});
+  weigh(device, Array<float>(std::vector<float>{0.25F, 0.5F, 0.125F}), constraints);
+  EXPECT_THAT(constraints.confidence.host(), ::testing::ElementsAre(0.25F, 0, 0.0625F));
+}
+
 TEST(ResidualMeter, CountsThePointsThatAreLost) {
   Device device;
   std::mt19937 random(5);

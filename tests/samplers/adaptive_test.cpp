@@ -159,6 +159,31 @@ TEST_F(AdaptiveSamplerTest, IsThatOfTheReference) {
   }
 }
 
+TEST_F(AdaptiveSamplerTest, ConstraintsWeighTheSameUnlessMasksDo) {
+  const Surface surface = square(24);
+  const auto samples = select(surface, 4);
+  samples->adapt(device_, Array<float>(std::vector<float>(surface.size(), 9)));
+  EXPECT_THAT(samples->weights(), testing::IsEmpty());
+}
+
+TEST_F(AdaptiveSamplerTest, TheConstraintsOfAMaskWeighOneTogetherWhereMasksAreEqual) {
+  const Surface surface = holey_surface(96, 70, 2);
+  const auto samples = AdaptiveSampler(4, threshold, true).select(device_, surface, Camera{});
+  EXPECT_THAT(samples->weights(), testing::IsEmpty());  // one a mask at first
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    samples->adapt(device_, Array<float>(patchy_residuals(surface, seed)));
+    const std::vector<float> weights = samples->weights();
+    ASSERT_EQ(weights.size(), samples->points().size());
+    std::map<std::pair<int, int>, double> sums;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const Eigen::Vector2i& pixel = surface.pixels[static_cast<std::size_t>(samples->points()[i])];
+      sums[{pixel.y() / 4, pixel.x() / 4}] += weights[i];
+    }
+    EXPECT_LT(sums.size(), weights.size());
+    for (const auto& [mask, sum] : sums) EXPECT_NEAR(sum, 1, 1e-5) << mask.first << ", " << mask.second;
+  }
+}
+
 TEST_F(AdaptiveSamplerTest, GivesTheSameBitsTwice) {
   const Surface surface = holey_surface(96, 70, 3);
   const auto once = select(surface, 4);
