@@ -33,6 +33,7 @@ constexpr std::array data_sets{
     DataSet{"sheet", "sheet.yaml", ""},
     DataSet{"cheeks", "faces/cheeks.yaml", "ict_face/ict_face.glb"},
     DataSet{"smile", "faces/smile.yaml", "ict_face/ict_face.glb"},
+    DataSet{"jaw", "faces/jaw.yaml", "ict_face/ict_face.glb"},
     DataSet{"shirt", "shirt.yaml", "deepdeform_seq258/depth_000000.png"},
 };
 constexpr std::array methods{"ed", "ad_nodes", "ad_nodes_ad_cons", "best"};

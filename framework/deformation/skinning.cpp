@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/deformation/pick_weights.cl.embed.h"
 #include "framework/deformation/skinning.cl.embed.h"
 
 namespace pliant {
@@ -29,15 +30,25 @@ struct NodeMembers {
   std::vector<std::size_t> points;
 };
 
-/// A point that is moved by the same nodes as the one before it tells no new edge and is left out: most are.
+bool are_equal(const int* a, const int* b, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (a[i] != b[i]) return false;
+  return true;
+}
+
+/// A point that is moved by the same nodes as the one before it, in whatever order, tells no new edge and is
+/// left out: most are.
 NodeMembers members_of_nodes(const std::vector<int>& nodes, std::size_t k, std::size_t node_count) {
   std::vector<std::size_t> telling;
   std::vector<std::size_t> first(node_count + 1, 0);
+  std::vector<int> set(k), last(k, -1);
   for (std::size_t entry = 0; entry + k <= nodes.size(); entry += k) {
-    const auto point = nodes.begin() + static_cast<std::ptrdiff_t>(entry);
-    if (entry > 0 &&
-        std::equal(point, point + static_cast<std::ptrdiff_t>(k), point - static_cast<std::ptrdiff_t>(k)))
-      continue;
+    const int* point = nodes.data() + entry;
+    if (entry > 0 && are_equal(point, point - k, k)) continue;
+    set.assign(point, point + k);
+    std::sort(set.begin(), set.end());
+    if (set == last) continue;
+    std::swap(set, last);
     telling.push_back(entry / k);
     for (std::size_t slot = 0; slot < k; ++slot) ++first[static_cast<std::size_t>(nodes[entry + slot]) + 1];
   }
@@ -73,37 +84,34 @@ void order_by_place(const std::vector<Eigen::Vector3f>& nodes, std::vector<int>:
 
 /// Nodes as the kernel wants them; see skinning.cl.
 struct GroupedNodes {
-  std::size_t stride = 0;
-  std::size_t box_stride = 0;
+  std::size_t groups = 0;
   Array<float> rows;
   Array<int> ids;
   Array<float> boxes;
 };
 
-GroupedNodes group_nodes(const std::vector<Eigen::Vector3f>& nodes, std::size_t width) {
+GroupedNodes group_nodes(const std::vector<Eigen::Vector3f>& nodes) {
   std::vector<int> ids(nodes.size());
   std::iota(ids.begin(), ids.end(), 0);
   order_by_place(nodes, ids.begin(), ids.end());
   const std::size_t groups = (nodes.size() + group_size - 1) / group_size;
   const std::size_t stride = groups * group_size;
-  const std::size_t box_stride = (groups + width - 1) / width * width;
   std::vector<float> rows(3 * stride, far_away);
-  std::vector<float> boxes(6 * box_stride, far_away);
+  std::vector<float> boxes(6 * groups);
   for (std::size_t place = 0; place < nodes.size(); ++place) {
     const Eigen::Vector3f& node = nodes[static_cast<std::size_t>(ids[place])];
     const bool is_first = place % group_size == 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float value = node[static_cast<Eigen::Index>(axis)];
       rows[axis * stride + place] = value;
-      float& low = boxes[axis * box_stride + place / group_size];
-      float& high = boxes[(3 + axis) * box_stride + place / group_size];
+      float& low = boxes[axis * groups + place / group_size];
+      float& high = boxes[(3 + axis) * groups + place / group_size];
       low = is_first ? value : std::min(low, value);
       high = is_first ? value : std::max(high, value);
     }
   }
   ids.resize(stride, std::numeric_limits<int>::max());
-  return {stride, box_stride, Array<float>(std::move(rows)), Array<int>(std::move(ids)),
-          Array<float>(std::move(boxes))};
+  return {groups, Array<float>(std::move(rows)), Array<int>(std::move(ids)), Array<float>(std::move(boxes))};
 }
 
 }  // namespace
@@ -111,34 +119,35 @@ GroupedNodes group_nodes(const std::vector<Eigen::Vector3f>& nodes, std::size_t 
 Influences compute_influences(Device& device, const Array<float>& points,
                               const std::vector<Eigen::Vector3f>& nodes, int nearest) {
   const int k = checked_nearest(nodes.size(), nearest);
-  const GroupedNodes grouped = group_nodes(nodes, static_cast<std::size_t>(device.width()));
+  const GroupedNodes grouped = group_nodes(nodes);
   const auto point_count = points.size() / 3;
   const auto entries = point_count * static_cast<std::size_t>(k);
   Influences influences{k, Array<int>(entries), Array<float>(entries)};
   auto kernel = device.kernel(embedded::framework_deformation_skinning_cl, "influences",
                               fmt::format("-DK={} -DGROUP={} -DHAS_NEXT={}", k, group_size,
                                           static_cast<int>(nodes.size() > static_cast<std::size_t>(k))));
-  device.run("weights", kernel, point_count, 64, points.device(device), static_cast<cl_int>(point_count),
-             grouped.rows.device(device), static_cast<cl_int>(grouped.stride), grouped.ids.device(device),
-             grouped.boxes.device(device), static_cast<cl_int>(grouped.box_stride),
+  const auto width = static_cast<std::size_t>(device.width());
+  device.run("weights", kernel, (point_count + width - 1) / width, 64 / width, points.device(device),
+             static_cast<cl_int>(point_count), grouped.rows.device(device),
+             static_cast<cl_int>(group_size * grouped.groups), grouped.ids.device(device),
+             grouped.boxes.device(device), static_cast<cl_int>(grouped.groups),
              influences.nodes.write_device(device), influences.weights.write_device(device));
   return influences;
 }
 
-Influences pick_influences(const Influences& influences, const std::vector<int>& points) {
+Influences pick_influences(Device& device, const Influences& influences, const Array<int>& points) {
   const auto k = static_cast<std::size_t>(influences.per_point);
   std::vector<int> nodes;
-  std::vector<float> weights;
   nodes.reserve(k * points.size());
-  weights.reserve(k * points.size());
-  for (const int point : points) {
-    const auto entry = static_cast<std::ptrdiff_t>(k * static_cast<std::size_t>(point));
-    const auto first_node = influences.nodes.host().begin() + entry;
-    const auto first_weight = influences.weights.host().begin() + entry;
-    nodes.insert(nodes.end(), first_node, first_node + influences.per_point);
-    weights.insert(weights.end(), first_weight, first_weight + influences.per_point);
+  for (const int point : points.host()) {
+    const int* first = influences.nodes.host().data() + k * static_cast<std::size_t>(point);
+    nodes.insert(nodes.end(), first, first + k);
   }
-  return {influences.per_point, Array<int>(std::move(nodes)), Array<float>(std::move(weights))};
+  Array<float> weights(nodes.size());
+  auto kernel = device.kernel(embedded::framework_deformation_pick_weights_cl, "pick_weights");
+  device.run("weights", kernel, nodes.size(), 64, static_cast<cl_int>(nodes.size()), influences.per_point,
+             points.device(device), influences.weights.device(device), weights.write_device(device));
+  return {influences.per_point, Array<int>(std::move(nodes)), std::move(weights)};
 }
 
 Influences compute_influences_reference(const std::vector<float>& points,

@@ -27,8 +27,9 @@ inline constexpr int max_influences = 16;
 Influences compute_influences(Device& device, const Array<float>& points,
                               const std::vector<Eigen::Vector3f>& nodes, int nearest);
 
-/// The influences of some of the points: `points` are indices of those that `influences` tells of.
-Influences pick_influences(const Influences& influences, const std::vector<int>& points);
+/// The influences of some of the points: `points` are indices of those that `influences` tells of. Its nodes
+/// are picked on the host, where the structure of a problem is made of them, its weights on the device.
+Influences pick_influences(Device& device, const Influences& influences, const Array<int>& points);
 
 /// Plain C++ reference of compute_influences; the tests hold both together.
 Influences compute_influences_reference(const std::vector<float>& points,

@@ -18,7 +18,7 @@ struct SurfaceDeformation {
 /// Affine forms with which another graph of the same surface starts where `before` ended: a node that was
 /// there keeps its transform; one that is new moves as the surface there was moved, by the blend of the
 /// transforms around it (its quadtree parent's the nearest). `points`: the surface at rest, mm.
-Array<float> carry_over(const SurfaceDeformation& before, const std::vector<int>& nodes,
+Array<float> carry_over(Device& device, const SurfaceDeformation& before, const std::vector<int>& nodes,
                         const std::vector<Eigen::Vector3f>& points);
 
 }  // namespace pliant

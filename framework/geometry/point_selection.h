@@ -15,6 +15,9 @@ class PointSelection {
   /// Indices of points of the surface, ascending, without repetition.
   virtual const std::vector<int>& points() const = 0;
 
+  /// How much each of `points` weighs; empty: all the same.
+  virtual std::vector<float> weights() const { return {}; }
+
   /// Chooses anew from how far each point of the surface lies from its target: `residuals`, mm, one a point,
   /// negative where it is not known. Returns whether the selection changed.
   virtual bool adapt(Device& device, const Array<float>& residuals) = 0;

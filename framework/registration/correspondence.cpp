@@ -28,6 +28,12 @@ bool any_in_force(Device& device, const Constraints& constraints) {
   return found.host().front() != 0;
 }
 
+void weigh(Device& device, const Array<float>& weights, Constraints& constraints) {
+  auto kernel = projection_kernel(device, "weigh");
+  device.run("match", kernel, constraints.size(), 64, static_cast<cl_int>(constraints.size()),
+             weights.device(device), constraints.confidence.write_device(device));
+}
+
 ProjectiveCorrespondence::ProjectiveCorrespondence(double max_distance, double max_angle, int search_radius)
     : max_distance_(static_cast<float>(max_distance)),
       least_cosine_(static_cast<float>(std::cos(max_angle))),
@@ -42,6 +48,26 @@ void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, cons
              target.points.device(device), target.normals.device(device), max_distance_, least_cosine_,
              static_cast<cl_int>(search_radius_), constraints.data.write_device(device),
              constraints.confidence.write_device(device));
+}
+
+void ProjectiveCorrespondence::measure(Device& device, const PointSet& moved, const Target& target,
+                                       Array<float>& distances) const {
+  auto kernel = projection_kernel(device, "measure");
+  device.run("residual", kernel, distances.size(), 64, static_cast<cl_int>(distances.size()),
+             moved.points.device(device), moved.normals.device(device), pinhole(target.camera),
+             image_size(target.camera), target.points.device(device), target.normals.device(device),
+             max_distance_, least_cosine_, distances.write_device(device));
+}
+
+void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const Target& target,
+                                                 std::vector<float>& distances) const {
+  distances.assign(moved.points.size() / 3, -1);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const Eigen::Vector3f point = at(moved.points, i);
+    const auto pixel = target_pixel_reference(target, point);
+    if (pixel && accepts(target, *pixel, point, at(moved.normals, i)))
+      distances[i] = (point - at(target.points, *pixel)).norm();
+  }
 }
 
 bool ProjectiveCorrespondence::accepts(const Target& target, std::size_t pixel, const Eigen::Vector3f& point,

@@ -18,10 +18,17 @@ class Correspondence {
   /// confidence 0.
   virtual void match(Device& device, const PointSet& moved, const Array<int>& selected, const Target& target,
                      Constraints& constraints) const = 0;
+  /// Writes how far each point of `moved` lies from the match that is accepted for it, in mm; -1 where none
+  /// is. Only enqueues. What graph, sampler and stopping judge by: E_con of [Alg. 2, 3].
+  virtual void measure(Device& device, const PointSet& moved, const Target& target,
+                       Array<float>& distances) const = 0;
 };
 
 /// Whether any of the constraints has a confidence above 0. Waits for everything enqueued so far.
 bool any_in_force(Device& device, const Constraints& constraints);
+
+/// Multiplies the confidence of each constraint by its weight; only enqueues.
+void weigh(Device& device, const Array<float>& weights, Constraints& constraints);
 
 /// Adds `projective`.
 void register_correspondences(Registry& registry);

@@ -20,8 +20,8 @@ std::vector<Grip> take_hold(const NamedHandles& handles, const Surface& surface)
 }
 
 /// The points that are held, asked to go where the handles want them; of the surface there, too, its normals.
-std::shared_ptr<Constraints> make_constraints(const Surface& surface, const std::vector<Grip>& grips,
-                                              const Influences& influences) {
+std::shared_ptr<Constraints> make_constraints(Device& device, const Surface& surface,
+                                              const std::vector<Grip>& grips, const Influences& influences) {
   std::vector<int> held;
   std::vector<Eigen::Vector3f> points;
   std::vector<float> data;
@@ -37,7 +37,7 @@ std::shared_ptr<Constraints> make_constraints(const Surface& surface, const std:
   }
   auto constraints = std::make_shared<Constraints>();
   constraints->points = flatten(points);
-  constraints->influences = pick_influences(influences, held);
+  constraints->influences = pick_influences(device, influences, Array<int>(std::move(held)));
   constraints->data = Array<float>(std::move(data));
   constraints->confidence = Array<float>(std::vector<float>(points.size(), 1.0F));
   return constraints;
@@ -89,7 +89,7 @@ class Edit {
     influences_.nodes.host();  // waits here for the device: its "weights" are not the time of "edges"
     auto edges =
         timed(times_, "edges", [&] { return find_edges(influences_, static_cast<int>(positions_.size())); });
-    const auto held = make_constraints(source_, grips_, influences_);
+    const auto held = make_constraints(device_, source_, grips_, influences_);
     held_ = static_cast<int>(held->size());
     std::vector<Term> terms;
     for (const Energy& energy : method_.energies)

@@ -90,6 +90,11 @@ kernel void match(int count, global const int* selected, global const float* res
   confidence[i] = pixel >= 0 ? 1 : 0;
 }
 
+kernel void weigh(int count, global const float* weights, global float* confidence) {
+  const int i = get_global_id(0);
+  if (i < count) confidence[i] *= weights[i];
+}
+
 #define CHUNK 256
 
 // One work-item, which stops at the first constraint in force.
@@ -99,62 +104,37 @@ kernel void find_in_force(int count, global const float* confidence, global int*
   *found = i < count;
 }
 
-// The target points at the pixels that WIDTH points, of which `count` are there, project to; (0, 0, 0) where
-// there is none. What target_pixel says, but rounded and divided for all at once.
-Vector target_points_at(Vector p, int count, float4 camera, int2 size, global const float* target_points) {
-  const Lanes u = camera.x * p.x / p.z + camera.z, v = camera.y * p.y / p.z + camera.w;
-  const Lanes left = floor(u), top = floor(v);
-  const Truth is_inside = p.z > (Lanes)0 && u > (Lanes)-0.5f && v > (Lanes)-0.5f &&
-                          u < (Lanes)(size.x - 0.5f) && v < (Lanes)(size.y - 0.5f);
-  float column[WIDTH], row[WIDTH], x[WIDTH], y[WIDTH], z[WIDTH];
-  STORE(WHERE(is_inside, left + WHERE(u - left >= (Lanes)0.5f, (Lanes)1)), column);
-  STORE(select((Lanes)-1, top + WHERE(v - top >= (Lanes)0.5f, (Lanes)1), is_inside), row);
-  for (int lane = 0; lane < WIDTH; ++lane) {
-    float3 q = 0;
-    if (lane < count && row[lane] >= 0)
-      q = load_finite((int)row[lane] * size.x + (int)column[lane], target_points);
-    x[lane] = q.x;
-    y[lane] = q.y;
-    z[lane] = q.z;
-  }
-  const Vector q = {LOAD(x), LOAD(y), LOAD(z)};
-  return only(q.z > (Lanes)0, q);
+// Distance of each point to the target point at its pixel where that is acceptable, else -1.
+kernel void measure(int count, global const float* moved, global const float* normals, float4 camera,
+                    int2 size, global const float* target_points, global const float* target_normals,
+                    float max_distance, float least_cosine, global float* distances) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const float3 p = vload3(i, moved);
+  const int pixel = target_pixel(p, camera, size, target_points);
+  const int is_accepted = pixel >= 0 && is_acceptable(p, vload3(i, normals), pixel, target_points,
+                                                      target_normals, max_distance, least_cosine);
+  distances[i] = is_accepted ? distance(p, vload3(pixel, target_points)) : -1;
 }
 
-float total(Lanes lanes) {
-  float values[WIDTH];
-  STORE(lanes, values);
-  float sum = 0;
-  for (int lane = 0; lane < WIDTH; ++lane) sum += values[lane];
-  return sum;
-}
-
-// Per work-item the residuals of CHUNK points, each (-1: it meets no target point), and in a fixed order
-// their sum, how many there are, and how many points are lost: not finite, or so far away that squares are
-// not.
-kernel void residuals(int count, global const float* moved, float4 camera, int2 size,
-                      global const float* target_points, global float* residual, global float4* partials) {
-  const int chunk = get_global_id(0) * CHUNK;
-  const int end = min(chunk + CHUNK, count);
-  if (chunk >= count) return;
-  Lanes sum = 0, landed = 0, lost = 0;
-  for (int first = chunk; first < end; first += WIDTH) {
-    const Vector p = load_vectors(moved + 3 * first, end - first);
-    const Vector q = target_points_at(p, end - first, camera, size, target_points);
-    const Vector way = {p.x - q.x, p.y - q.y, p.z - q.z};
-    const Truth has_landed = q.z > (Lanes)0;
-    const Truth is_finite =
-        fabs(p.x) < (Lanes)FARTHEST && fabs(p.y) < (Lanes)FARTHEST && fabs(p.z) < (Lanes)FARTHEST;
-    const Lanes distance = WHERE(has_landed, sqrt(inner(way, way)));
-    const Lanes there = WHERE(LANE_OFFSETS < (Lanes)(end - first), (Lanes)1);
-    sum += distance;
-    landed += WHERE(has_landed, (Lanes)1);
-    lost += there - WHERE(is_finite, there);
-    float values[WIDTH];
-    STORE(select((Lanes)-1, distance, has_landed), values);
-    for (int lane = 0; lane < min(WIDTH, end - first); ++lane) residual[first + lane] = values[lane];
+// Per work-item of CHUNK points, in order: the sum of the residuals that are known, how many those are, how
+// many points have one or project onto a target point, and how many points are lost: not finite, or so far
+// away that squares are not.
+kernel void sum_residuals(int count, global const float* moved, float4 camera, int2 size,
+                          global const float* target_points, global const float* residual,
+                          global float4* partials) {
+  const int first = get_global_id(0) * CHUNK;
+  if (first >= count) return;
+  float4 sum = 0;
+  for (int i = first; i < min(first + CHUNK, count); ++i) {
+    const float3 p = vload3(i, moved);
+    if (residual[i] >= 0)
+      sum += (float4)(residual[i], 1, 1, 0);
+    else if (target_pixel(p, camera, size, target_points) >= 0)
+      sum.z += 1;
+    if (!all(fabs(p) < FARTHEST)) sum.w += 1;
   }
-  partials[get_global_id(0)] = (float4)(total(sum), total(landed), total(lost), 0);
+  partials[get_global_id(0)] = sum;
 }
 
 kernel void total_residual(int count, global const float4* partials, global float4* total) {

@@ -19,6 +19,14 @@ class ProjectiveCorrespondence : public Correspondence {
   void match(Device& device, const PointSet& moved, const Array<int>& selected, const Target& target,
              Constraints& constraints) const override;
 
+  /// Of matches at the pixel that a point projects to alone: looking around for every point would cost more
+  /// than the registration.
+  void measure(Device& device, const PointSet& moved, const Target& target,
+               Array<float>& distances) const override;
+
+  /// Plain C++ reference of `measure`.
+  void measure_reference(const PointSet& moved, const Target& target, std::vector<float>& distances) const;
+
   /// Plain C++ reference of `match`.
   void match_reference(const PointSet& moved, const Array<int>& selected, const Target& target,
                        Constraints& constraints) const;

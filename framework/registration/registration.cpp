@@ -34,7 +34,8 @@ struct Skeleton {
 
 /// Constraints and the problem that they and a skeleton make: what each adaptation makes anew.
 struct Model {
-  Array<int> selected;  ///< the points that are constrained
+  Array<int> selected;   ///< the points that are constrained
+  Array<float> weights;  ///< of these; empty: all the same
   std::shared_ptr<Constraints> constraints;
   std::unique_ptr<Problem> problem;
 };
@@ -110,15 +111,17 @@ Skeleton make_skeleton(const Scene& scene, const Method& method, Device& device,
 }
 
 Model make_model(const Scene& scene, const Method& method, Device& device, const Skeleton& skeleton,
-                 const std::vector<int>& samples, int stage) {
+                 const PointSelection& selection, int stage) {
+  const std::vector<int>& samples = selection.points();
   check_selection(scene, "constraint", samples);
-  auto constraints =
-      make_constraints(pick(scene.aligned.points, samples), pick_influences(skeleton.influences, samples));
+  Array<int> selected(samples);
+  auto constraints = make_constraints(pick(scene.aligned.points, samples),
+                                      pick_influences(device, skeleton.influences, selected));
   auto problem =
       std::make_unique<Problem>(DeformationGraph{skeleton.positions, skeleton.edges},
                                 make_terms(device, method, scene, skeleton.positions, constraints, stage),
                                 method.length_unit, *method.transform);
-  return {Array<int>(samples), std::move(constraints), std::move(problem)};
+  return {std::move(selected), Array<float>(selection.weights()), std::move(constraints), std::move(problem)};
 }
 
 /// Room for a deformed set of points.
@@ -140,12 +143,13 @@ class Registration {
         skeleton_(make_skeleton(scene_, method, device, nodes_->points(), times_)),
         model_(make_new_model()),
         moved_(unwritten(scene_.rest)),
-        meter_(device, scene_.target, scene_.aligned.size()) {
+        meter_(device, *method.correspondence, scene_.target, scene_.aligned.size()) {
     update_source();
   }
 
   void match() {
     method_.correspondence->match(device_, moved_, model_.selected, scene_.target, *model_.constraints);
+    if (!model_.weights.empty()) weigh(device_, model_.weights, *model_.constraints);
   }
 
   void run(const ProgressSink& progress) {
@@ -200,7 +204,7 @@ class Registration {
   }
 
   void measure_start() {
-    const Residual residual = meter_.measure(moved_.points);
+    const Residual residual = meter_.measure(moved_);
     if (residual.lost > 0)
       throw NumericalError(
           fmt::format("{}: {} point(s) of the source are not finite where the alignment puts them",
@@ -220,7 +224,7 @@ class Registration {
       match();
       solver_->solve();
       update_source();
-      judge(meter_.measure(moved_.points));
+      judge(meter_.measure(moved_));
     } catch (const NumericalError& error) {
       end("failed", error.what());
     }
@@ -241,6 +245,8 @@ class Registration {
       end("failed", "no point of the source projects onto a point of the target any more");
     else if (!is_pulled())
       end("no_constraints", "no constraint is in force: all matches are rejected, or all weights are zero");
+    else if (residual.matched == 0)
+      end("failed", "no point of the source has a match any more that is not rejected");
     else
       residuals_.push_back(residual.mean);
   }
@@ -298,15 +304,18 @@ class Registration {
     return true;
   }
 
-  /// Only a softer or a new graph promises more where nothing was gained: adaptive constraints seldom stay
-  /// the same.
+  /// Only a softer or a first new graph promises more where nothing was gained: adaptive constraints seldom
+  /// stay the same, and a graph that has grown without gaining would grow on.
   void adapt() {
+    const bool was_stuck = is_stuck();
     const bool is_softer = relax();
-    const bool has_new_nodes = adapt_nodes();
-    if (!is_softer && !has_new_nodes && is_stuck())
+    const bool may_grow = is_softer || !was_stuck || !has_grown_;
+    const bool has_new_nodes = may_grow && adapt_nodes();
+    if (!is_softer && !has_new_nodes && was_stuck)
       termination_ = "no_progress";
     else if (const bool has_new_samples = adapt_samples(); has_new_nodes || has_new_samples)
       renew();
+    has_grown_ = has_grown_ || has_new_nodes;
   }
 
   /// Refines and collapses [Alg. 2, 3]; whether there are other nodes.
@@ -329,16 +338,15 @@ class Registration {
     if (termination_.empty()) rebuild();
   }
 
-  Model make_new_model() {
-    return make_model(scene_, method_, device_, skeleton_, samples_->points(), stage_);
-  }
+  Model make_new_model() { return make_model(scene_, method_, device_, skeleton_, *samples_, stage_); }
 
   /// Makes the model of the graph and constraints anew; the deformation so far is kept.
   void rebuild() {
     Array<float> start = model_.problem->unknowns();
     if (nodes_->points() != skeleton_.nodes) {
       Skeleton next = make_skeleton(scene_, method_, device_, nodes_->points(), times_);
-      start = carry_over({skeleton_.nodes, skeleton_.influences, start}, next.nodes, scene_.aligned.points);
+      start = carry_over(device_, {skeleton_.nodes, skeleton_.influences, start}, next.nodes,
+                         scene_.aligned.points);
       skeleton_ = std::move(next);
     }
     model_ = make_new_model();
@@ -362,6 +370,7 @@ class Registration {
   std::unique_ptr<PointSelection> samples_;
   int stage_ = 0;  ///< of relaxation
   int stage_began_ = 0;
+  bool has_grown_ = false;  ///< whether the graph is another than at first
   Skeleton skeleton_;
   Model model_;
   PointSet moved_;

@@ -1,28 +1,29 @@
 #pragma once
 
-#include "framework/device/array.h"
-#include "framework/registration/target.h"
+#include "framework/registration/correspondence.h"
 
 namespace pliant {
 
-/// How far a deformed source lies from its target, by projective association, nothing rejected.
+/// How far a deformed source lies from the matches that are accepted for it.
 struct Residual {
-  double mean = 0;  ///< mm, over the points that land on a target point; 0 when none does
-  int landed = 0;   ///< how many those are
+  double mean = 0;  ///< mm, over the points that have such a match; 0 when none has
+  int matched = 0;  ///< how many those are
+  int landed = 0;   ///< these, and those that project onto a target point which is rejected
   int lost = 0;     ///< points that are not finite, or further away than farthest_depth
 };
 
 /// Measures residuals on the device; reading one back waits for everything enqueued so far.
 class ResidualMeter {
  public:
-  ResidualMeter(Device& device, const Target& target, std::size_t point_count);
-  /// `moved`: x y z of each of the points, mm.
-  Residual measure(const Array<float>& moved);
-  /// What was measured last, point by point, in mm; -1 where a point meets no target point.
+  ResidualMeter(Device& device, const Correspondence& correspondence, const Target& target,
+                std::size_t point_count);
+  Residual measure(const PointSet& moved);
+  /// What was measured last, point by point, in mm; -1 where a point has no match that is accepted.
   const Array<float>& per_point() const { return per_point_; }
 
  private:
   Device* device_;
+  const Correspondence* correspondence_;
   const Target* target_;
   std::size_t chunks_;
   Array<float> per_point_;
@@ -30,8 +31,8 @@ class ResidualMeter {
   cl::Buffer total_;
 };
 
-/// Plain C++ reference of ResidualMeter: fills `per_point`.
-Residual measure_residual_reference(const Target& target, const Array<float>& moved,
-                                    std::vector<float>& per_point);
+/// Plain C++ reference of ResidualMeter::measure from what it has measured `per_point`.
+Residual sum_residuals_reference(const Target& target, const Array<float>& moved,
+                                 const std::vector<float>& per_point);
 
 }  // namespace pliant

@@ -92,25 +92,33 @@ kernel void find_centres(int level, int4 root, int2 size, global const int* poin
   state[at] = level == 1 && found != EMPTY ? LEAF : ABSENT;
 }
 
-int has_node_below(int child, global const int* centre) {
-  return centre[child] >= 0 || centre[child + 1] >= 0 || centre[child + 2] >= 0 || centre[child + 3] >= 0;
+// Whether a cell enters the tree as a leaf; a virtual one only where the tree may have such.
+int may_be_leaf(int centre, int may_be_virtual) {
+  return centre >= 0 || (centre == VIRTUAL && may_be_virtual);
 }
 
-// [Alg. 2] for one level: divides the leaves whose mean residual lies above the threshold.
-kernel void refine(int level, float threshold, global const float2* totals, global const int* centre,
-                   global int* state) {
+// [Alg. 2] for one level: divides the leaves whose mean residual lies above the threshold, but for those
+// whose node, or whose only cell, would be gone without another.
+kernel void refine(int level, float threshold, int children_may_be_virtual, global const float2* totals,
+                   global const int* centre, global int* state) {
   const int cell = get_global_id(0);
   if (cell >= cell_count(level)) return;
   const int at = first_cell(level) + cell;
   const int child = first_cell(level + 1) + 4 * cell;
   const float2 total = totals[at];
   if (state[at] != LEAF || !(total.x > threshold * total.y)) return;
-  if (centre[at] >= 0 && !has_node_below(child, centre)) return;
+  const int needs_nodes = centre[at] >= 0;
+  int has_heirs = 0;
+  for (int i = child; i < child + 4; ++i)
+    has_heirs = has_heirs || may_be_leaf(centre[i], children_may_be_virtual && !needs_nodes);
+  if (!has_heirs) return;
   state[at] = PARENT;
-  for (int i = child; i < child + 4; ++i) state[i] = centre[i] == EMPTY ? ABSENT : LEAF;
+  for (int i = child; i < child + 4; ++i)
+    state[i] = may_be_leaf(centre[i], children_may_be_virtual) ? LEAF : ABSENT;
 }
 
-// [Alg. 3] for one level: takes the children back whose parent's mean residual lies below the threshold.
+// [Alg. 3] for one level: takes the children back whose parent's mean residual lies below the threshold. A
+// virtual parent takes no nodes back: it has none to give in their place.
 kernel void collapse(int level, float threshold, global const float2* totals, global const int* centre,
                      global int* state) {
   const int cell = get_global_id(0);
@@ -120,7 +128,7 @@ kernel void collapse(int level, float threshold, global const float2* totals, gl
   const float2 total = totals[at];
   if (state[at] != PARENT || !(total.x < threshold * total.y)) return;
   for (int i = child; i < child + 4; ++i)
-    if (state[i] == PARENT) return;
+    if (state[i] == PARENT || (state[i] == LEAF && centre[at] < 0 && centre[i] >= 0)) return;
   state[at] = LEAF;
   for (int i = child; i < child + 4; ++i) state[i] = ABSENT;
 }

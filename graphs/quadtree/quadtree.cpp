@@ -40,10 +40,8 @@ class QuadtreeNodes : public NodeSelection {
   bool adapt(Device& device, const Array<float>& residuals) override {
     sum(device, residuals);
     // Deepest first, so that no child is judged by a residual that was measured without it.
-    for (int level = levels_ - 1; level >= 1; --level)
-      change(device, "refine", level, settings_.refine_threshold);
-    for (int level = levels_ - 1; level >= initial_levels_; --level)
-      change(device, "collapse", level, settings_.collapse_threshold);
+    for (int level = levels_ - 1; level >= 1; --level) refine(device, level, settings_.refine_threshold);
+    for (int level = levels_ - 1; level >= initial_levels_; --level) collapse(device, level);
     return collect(device);
   }
 
@@ -84,7 +82,7 @@ class QuadtreeNodes : public NodeSelection {
     for (int level = 1; level <= levels_; ++level)
       run(device, find, level, level, root(), size_, map_.device(device), totals_,
           centre_.write_device(device), state_.write_device(device));
-    for (int level = 1; level < initial_levels_; ++level) change(device, "refine", level, -1);
+    for (int level = 1; level < initial_levels_; ++level) refine(device, level, -1);
     collect(device);
   }
 
@@ -97,10 +95,17 @@ class QuadtreeNodes : public NodeSelection {
     for (int level = levels_ - 1; level >= 1; --level) run(device, children, level, level, totals_);
   }
 
-  void change(Device& device, const char* how, int level, double threshold) {
-    auto step = kernel(device, how);
-    run(device, step, level, level, static_cast<cl_float>(threshold), totals_, centre_.device(device),
-        state_.write_device(device));
+  void refine(Device& device, int level, double threshold) {
+    auto step = kernel(device, "refine");
+    const auto children_may_be_virtual = static_cast<cl_int>(level < settings_.virtual_levels);
+    run(device, step, level, level, static_cast<cl_float>(threshold), children_may_be_virtual, totals_,
+        centre_.device(device), state_.write_device(device));
+  }
+
+  void collapse(Device& device, int level) {
+    auto step = kernel(device, "collapse");
+    run(device, step, level, level, static_cast<cl_float>(settings_.collapse_threshold), totals_,
+        centre_.device(device), state_.write_device(device));
   }
 
   /// Compacts the nodes; whether they are others than before.
@@ -185,6 +190,10 @@ void register_quadtree_graph(Registry& registry) {
           integer("initial_levels", settings.initial_levels)
               .range(1, 10)
               .doc("Levels of the tree to begin with, above which it never collapses"),
+          integer("virtual_levels", settings.virtual_levels)
+              .range(1, 10)
+              .doc(
+                  "Levels on which a cell without a point at its centre stays in the tree; the thesis has 2"),
           real("refine_threshold", settings.refine_threshold)
               .unit("mm")
               .at_least(0)
@@ -197,7 +206,8 @@ void register_quadtree_graph(Registry& registry) {
       [](const Parameters& parameters, const Registry&) {
         return std::make_unique<QuadtreeGraph>(QuadtreeGraph::Settings{
             static_cast<int>(parameters.integer("levels")),
-            static_cast<int>(parameters.integer("initial_levels")), parameters.real("refine_threshold"),
+            static_cast<int>(parameters.integer("initial_levels")),
+            static_cast<int>(parameters.integer("virtual_levels")), parameters.real("refine_threshold"),
             parameters.real("collapse_threshold")});
       });
 }

@@ -31,10 +31,12 @@ std::vector<int> spread_rows(int step) {
 
 class AdaptiveSelection : public PointSelection {
  public:
-  AdaptiveSelection(int step, float threshold, const Surface& source)
-      : AdaptiveSelection(step, threshold, source, index_pixels(source)) {}
+  AdaptiveSelection(int step, float threshold, bool equal_masks, const Surface& source)
+      : AdaptiveSelection(step, threshold, equal_masks, source, index_pixels(source)) {}
 
   const std::vector<int>& points() const override { return points_; }
+
+  std::vector<float> weights() const override { return weights_; }
 
   bool adapt(Device& device, const Array<float>& residuals) override {
     auto choose = device.kernel(embedded::samplers_adaptive_adaptive_cl, "choose");
@@ -43,14 +45,17 @@ class AdaptiveSelection : public PointSelection {
                size_, map_.device(device), is_centre_.device(device), residuals.device(device),
                flags_.write_device(device));
     const std::vector<int> before = std::exchange(points_, compact(device, stage, flags_).host());
+    if (equal_masks_) weigh();
     return points_ != before;
   }
 
  private:
-  AdaptiveSelection(int step, float threshold, const Surface& source, const PixelIndex& index)
+  AdaptiveSelection(int step, float threshold, bool equal_masks, const Surface& source,
+                    const PixelIndex& index)
       : step_(step),
         spread_rows_(spread_rows(step)),
         threshold_(threshold),
+        equal_masks_(equal_masks),
         corner_{{index.left, index.top}},
         size_{{index.points.width(), index.points.height()}},
         masks_{{masks_over(index.left, index.points.width()), masks_over(index.top, index.points.height())}},
@@ -62,27 +67,38 @@ class AdaptiveSelection : public PointSelection {
     is_centre_ = Array<int>(std::move(is_centre));
   }
 
+  /// As many constraints as a mask has share what its one point at first weighs.
+  void weigh() {
+    const auto& in_mask = flags_.host();
+    weights_.clear();
+    weights_.reserve(points_.size());
+    for (const int point : points_)
+      weights_.push_back(1.0F / static_cast<float>(in_mask[static_cast<std::size_t>(point)]));
+  }
+
   int masks_over(int first, int count) const { return (first + count - 1) / step_ - first / step_ + 1; }
 
   cl_int step_;
   Array<int> spread_rows_;  ///< per column of a mask: the row of its one point, of n spread evenly
   cl_float threshold_;
+  bool equal_masks_;
   cl_int2 corner_;        ///< pixel of the map's corner
   cl_int2 size_;          ///< of the map
   cl_int2 masks_;         ///< how many touch the map, across and down
   Array<int> map_;        ///< point at each pixel
   Array<int> is_centre_;  ///< per point: is it the one at the centre of its mask?
-  Array<int> flags_;      ///< per point: is it constrained?
+  Array<int> flags_;      ///< per point: how many are constrained in its mask, 0 where it is not
   std::vector<int> points_;
+  std::vector<float> weights_;
 };
 
 }  // namespace
 
-AdaptiveSampler::AdaptiveSampler(int step, double threshold)
-    : step_(step), threshold_(static_cast<float>(threshold)) {}
+AdaptiveSampler::AdaptiveSampler(int step, double threshold, bool equal_masks)
+    : step_(step), threshold_(static_cast<float>(threshold)), equal_masks_(equal_masks) {}
 
 std::unique_ptr<PointSelection> AdaptiveSampler::select(Device&, const Surface& source, const Camera&) const {
-  return std::make_unique<AdaptiveSelection>(step_, threshold_, source);
+  return std::make_unique<AdaptiveSelection>(step_, threshold_, equal_masks_, source);
 }
 
 void register_adaptive_sampler(Registry& registry) {
@@ -96,10 +112,14 @@ void register_adaptive_sampler(Registry& registry) {
               .doc(
                   "Mean residual above which all points of a mask are constrained; below half of it only its "
                   "centre. Half the average RMSE of the data is best"),
+          boolean("equal_masks", false)
+              .doc("The constraints of a mask weigh 1 together; else each weighs 1 [thesis 4.5], and what is "
+                   "constrained densely is pulled harder"),
       },
       [](const Parameters& parameters, const Registry&) {
         return std::make_unique<AdaptiveSampler>(static_cast<int>(parameters.integer("step")),
-                                                 parameters.real("threshold"));
+                                                 parameters.real("threshold"),
+                                                 parameters.boolean("equal_masks"));
       });
 }
 

@@ -13,8 +13,9 @@ namespace pliant {
 /// known, its centre.
 class AdaptiveSampler : public ConstraintSampler {
  public:
-  /// `step`: n, pixels; `threshold` in mm.
-  AdaptiveSampler(int step, double threshold);
+  /// `step`: n, pixels; `threshold` in mm. `equal_masks`: constraints weigh so that every mask does the same,
+  /// however many it has; else each weighs 1.
+  AdaptiveSampler(int step, double threshold, bool equal_masks);
 
   std::unique_ptr<PointSelection> select(Device& device, const Surface& source,
                                          const Camera& camera) const override;
@@ -22,6 +23,7 @@ class AdaptiveSampler : public ConstraintSampler {
  private:
   int step_;
   float threshold_;
+  bool equal_masks_;
 };
 
 /// Adds the sampler `adaptive`.

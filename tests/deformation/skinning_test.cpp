@@ -123,16 +123,16 @@ TEST_F(SkinningTest, WeightsNeedANodeAndAPossibleNumberOfThem) {
   EXPECT_THROW(compute_influences_reference(flat(points), {}, 4), DataError);
 }
 
-// Small whole numbers: every squared distance is exact, so that ties are ties on both sides.
 TEST_F(SkinningTest, PicksTheInfluencesOfSomePoints) {
   const Influences all{2, Array<int>(std::vector<int>{0, 1, 2, 3, 4, 5}),
                        Array<float>(std::vector<float>{0.9F, 0.1F, 0.8F, 0.2F, 0.7F, 0.3F})};
-  const Influences picked = pick_influences(all, {2, 0});
+  const Influences picked = pick_influences(device_, all, Array<int>(std::vector<int>{2, 0}));
   EXPECT_EQ(picked.per_point, 2);
   EXPECT_THAT(picked.nodes.host(), testing::ElementsAre(4, 5, 0, 1));
   EXPECT_THAT(picked.weights.host(), testing::ElementsAre(0.7F, 0.3F, 0.9F, 0.1F));
 }
 
+// Small whole numbers: every squared distance is exact, so that ties are ties on both sides.
 TEST_F(SkinningTest, TiesGoToTheLowerNodeOnBothSides) {
   Points nodes, points;
   for (int x = 0; x < 8; ++x)

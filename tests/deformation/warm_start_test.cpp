@@ -43,8 +43,8 @@ class WarmStartTest : public testing::Test {
     affine_ = Array<float>(std::move(forms));
   }
 
-  Array<float> carried(const std::vector<int>& nodes) const {
-    return carry_over({nodes_, influences_, affine_}, nodes, points_);
+  Array<float> carried(const std::vector<int>& nodes) {
+    return carry_over(device_, {nodes_, influences_, affine_}, nodes, points_);
   }
 
   /// The form of one node, column by column: R - I, t.
@@ -65,6 +65,7 @@ class WarmStartTest : public testing::Test {
     return Eigen::Map<const Eigen::Vector3f>(result.points.host().data());
   }
 
+  Device device_;
   Points points_;
   std::vector<int> nodes_;
   Influences influences_;

@@ -106,14 +106,15 @@ std::unique_ptr<QuadtreeReference::Cell> QuadtreeReference::make_cell(int level,
   return cell;
 }
 
-/// Those of the four that have points.
+/// Those of the four that have points and, where the tree has no virtual leaves, a node.
 std::vector<std::unique_ptr<QuadtreeReference::Cell>> QuadtreeReference::make_children(
     const Cell& cell) const {
   std::vector<std::unique_ptr<Cell>> children;
   for (const int row : {0, 1})
     for (const int column : {0, 1}) {
       auto child = make_cell(cell.level + 1, 2 * cell.column + column, 2 * cell.row + row);
-      if (!child->region.empty()) children.push_back(std::move(child));
+      const bool is_leaf = child->node >= 0 || child->level <= settings_.virtual_levels;
+      if (!child->region.empty() && is_leaf) children.push_back(std::move(child));
     }
   return children;
 }
@@ -134,7 +135,7 @@ double QuadtreeReference::mean_residual(const Cell& cell, const std::vector<floa
 void QuadtreeReference::grow(Cell& cell, int levels) const {
   if (cell.level >= levels) return;
   auto children = make_children(cell);
-  if (cell.node >= 0 && !has_node(children)) return;
+  if (children.empty() || (cell.node >= 0 && !has_node(children))) return;
   cell.children = std::move(children);
   for (auto& child : cell.children) grow(*child, levels);
 }
@@ -150,7 +151,7 @@ void QuadtreeReference::collapse(Cell& cell, const std::vector<float>& residuals
   for (auto& child : cell.children) collapse(*child, residuals);
   if (cell.is_leaf() || cell.level < settings_.initial_levels) return;
   for (const auto& child : cell.children)
-    if (!child->is_leaf()) return;
+    if (!child->is_leaf() || (cell.node < 0 && child->node >= 0)) return;
   if (mean_residual(cell, residuals) < settings_.collapse_threshold) cell.children.clear();
 }
 

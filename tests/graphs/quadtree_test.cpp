@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <random>
 #include <set>
 
 #include "framework/core/error.h"
@@ -58,7 +59,7 @@ class QuadtreeTest : public testing::Test {
   /// Hands `check` the tree of each object as it is built and after each of several adaptations.
   void over_adaptations(const std::function<void(const Surface&, const NodeSelection&)>& check) {
     for (const Surface& surface : objects()) {
-      const auto nodes = select({5, 2, 2, 1.5}, surface);
+      const auto nodes = select({5, 2, 10, 2, 1.5}, surface);
       check(surface, *nodes);
       for (unsigned seed = 1; seed <= 5; ++seed) {
         nodes->adapt(device_, Array<float>(patchy_residuals(surface, seed)));
@@ -73,7 +74,8 @@ class QuadtreeTest : public testing::Test {
 TEST_F(QuadtreeTest, IsThatOfTheReference) {
   for (const Surface& surface : objects())
     for (const Settings& settings :
-         {Settings{5, 2, 2, 1.5}, Settings{6, 3, 1.75, 1.25}, Settings{4, 1, 2, 1}}) {
+         {Settings{5, 2, 10, 2, 1.5}, Settings{6, 3, 10, 1.75, 1.25}, Settings{4, 1, 10, 2, 1},
+          Settings{6, 2, 2, 2, 1.5}, Settings{5, 1, 1, 2, 1.5}, Settings{6, 3, 4, 1.75, 1.25}}) {
       const auto nodes = select(settings, surface);
       QuadtreeReference reference(settings, surface);
       EXPECT_EQ(nodes->points(), reference.points());
@@ -94,7 +96,7 @@ TEST_F(QuadtreeTest, HasItsCentresRightWhereCellsReachBeyondTheObject) {
   for (const auto& [width, height] : {std::pair(21, 50), {37, 50}, {61, 22}, {50, 33}}) {
     Surface surface = full_rectangle(width, height);
     for (Eigen::Vector2i& pixel : surface.pixels) pixel += Eigen::Vector2i(100, 100);
-    const Settings settings{4, 4, 2, 1};
+    const Settings settings{4, 4, 10, 2, 1};
     EXPECT_EQ(select(settings, surface)->cells(), QuadtreeReference(settings, surface).cells())
         << width << " x " << height;
   }
@@ -103,7 +105,7 @@ TEST_F(QuadtreeTest, HasItsCentresRightWhereCellsReachBeyondTheObject) {
 // A test of the tests: residuals under which nothing refines or collapses would prove nothing.
 TEST_F(QuadtreeTest, IsComparedWhereItBothRefinesAndCollapses) {
   const Surface surface = holey_surface(96, 70, 1);
-  QuadtreeReference tree({5, 2, 2, 1.5}, surface);
+  QuadtreeReference tree({5, 2, 10, 2, 1.5}, surface);
   bool refined = false;
   bool collapsed = false;
   bool is_virtual = false;
@@ -161,7 +163,7 @@ TEST_F(QuadtreeTest, NoCellIsInTheGraphTogetherWithOneInsideIt) {
 
 TEST_F(QuadtreeTest, HasAtMostFourToTheLNodesOnLevelL) {
   const Surface surface = full_rectangle(64, 64);
-  const auto nodes = select({5, 3, 2, 1}, surface);
+  const auto nodes = select({5, 3, 10, 2, 1}, surface);
   EXPECT_EQ(nodes->points().size(), 64U);  // 4^3: full where nothing is missing
   EXPECT_TRUE(nodes->adapt(device_, everywhere(surface, 3)));
   EXPECT_EQ(nodes->points().size(), 256U);  // one level an adaptation
@@ -177,7 +179,7 @@ TEST_F(QuadtreeTest, HasAtMostFourToTheLNodesOnLevelL) {
 
 TEST_F(QuadtreeTest, SettlesAtTheSameResidual) {
   for (const Surface& surface : objects()) {
-    const auto nodes = select({6, 2, 2, 1.5}, surface);
+    const auto nodes = select({6, 2, 10, 2, 1.5}, surface);
     for (unsigned seed = 1; seed <= 5; ++seed) {
       const Array<float> residuals(patchy_residuals(surface, seed));
       int calls = 0;
@@ -192,7 +194,7 @@ TEST_F(QuadtreeTest, SettlesAtTheSameResidual) {
 
 TEST_F(QuadtreeTest, ChangesOnlyBeyondTheThresholds) {
   const Surface surface = holey_surface(96, 70, 4);
-  const auto nodes = select({5, 2, 2, 1}, surface);
+  const auto nodes = select({5, 2, 10, 2, 1}, surface);
   while (nodes->adapt(device_, everywhere(surface, 2.5))) {
   }
   EXPECT_EQ(nodes->cells().back().level, 5);
@@ -203,11 +205,89 @@ TEST_F(QuadtreeTest, ChangesOnlyBeyondTheThresholds) {
   EXPECT_LT(nodes->points().size(), refined.size() / 2);
 }
 
-TEST_F(QuadtreeTest, CollapsesToWhereItBegan) {
-  auto surfaces = objects();
-  surfaces.push_back(full_rectangle(64, 64));
-  for (const Surface& surface : surfaces) {
-    const auto nodes = select({5, 2, 2, 1}, surface);
+bool is_within(const GraphCell& inner, const GraphCell& outer) {
+  return inner.level >= outer.level && contains(outer, {inner.left, inner.top});
+}
+
+int count_within(const std::vector<GraphCell>& leaves, const GraphCell& cell, bool with_node) {
+  return static_cast<int>(std::count_if(leaves.begin(), leaves.end(), [&](const GraphCell& leaf) {
+    return is_within(leaf, cell) && !(with_node && leaf.is_virtual);
+  }));
+}
+
+/// A cell that is in the tree before and after, divided or not, and had a node, has one. Returns how many
+/// cells were joined.
+int expect_no_cell_without_its_nodes(const std::vector<GraphCell>& before,
+                                     const std::vector<GraphCell>& after) {
+  int joined = 0;
+  for (const auto* leaves : {&before, &after})
+    for (const GraphCell& cell : *leaves) {
+      if (count_within(before, cell, false) == 0 || count_within(after, cell, false) == 0) continue;
+      const bool is_kept = count_within(before, cell, true) == 0 || count_within(after, cell, true) > 0;
+      EXPECT_TRUE(is_kept) << "level " << cell.level << " at " << cell.left << ", " << cell.top;
+      joined += static_cast<int>(leaves == &after && count_within(before, cell, false) > 1);
+    }
+  return joined;
+}
+
+/// An object of which a share of the pixels, or of blocks of pixels, is missing at random.
+Surface ragged_surface(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto block = 1 + static_cast<int>(random() % 9);
+  const auto missing = random() % 10;
+  Surface surface =
+      full_rectangle(40 + static_cast<int>(random() % 50), 40 + static_cast<int>(random() % 50));
+  remove_points(surface, [&](const Eigen::Vector2i& pixel) {
+    const auto place = static_cast<unsigned>(pixel.y() / block * 100 + pixel.x() / block);
+    return std::mt19937(seed + 1000 * place)() % 12 < missing;
+  });
+  return surface;
+}
+
+TEST_F(QuadtreeTest, NoCellLosesAllOfItsNodesOnWhateverMaskUnderWhateverResidual) {
+  int joined = 0;
+  int is_virtual = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Surface surface = ragged_surface(seed);
+    for (const int virtual_levels : {2, 10}) {
+      const auto nodes = select({6, 1 + static_cast<int>(seed % 3), virtual_levels, 2, 1.75}, surface);
+      for (unsigned round = 0; round < 8; ++round) {
+        SCOPED_TRACE(testing::Message()
+                     << "mask " << seed << ", " << virtual_levels << " virtual levels, round " << round);
+        const auto before = nodes->cells();
+        nodes->adapt(device_, Array<float>(patchy_residuals(surface, 100 * seed + round / 2)));
+        joined += expect_no_cell_without_its_nodes(before, nodes->cells());
+        is_virtual += static_cast<int>(std::count_if(before.begin(), before.end(),
+                                                     [](const GraphCell& cell) { return cell.is_virtual; }));
+      }
+    }
+  }
+  EXPECT_GT(joined, 100);  // or it would prove nothing
+  EXPECT_GT(is_virtual, 100);
+}
+
+TEST_F(QuadtreeTest, AVirtualParentTakesNoNodesBack) {
+  Surface surface = full_rectangle(64, 64);
+  remove_points(surface, [](const Eigen::Vector2i& pixel) { return pixel == Eigen::Vector2i(8, 8); });
+  const auto nodes = select({3, 2, 10, 2, 1}, surface);
+  EXPECT_EQ(nodes->points().size(), 15U);
+  nodes->adapt(device_, everywhere(surface, 3));
+  EXPECT_EQ(nodes->points().size(), 64U);
+  nodes->adapt(device_, everywhere(surface, 0));
+  EXPECT_EQ(nodes->points().size(), 15U + 4U);
+}
+
+TEST_F(QuadtreeTest, BelowItsVirtualLevelsACellWithoutANodeIsNoPartOfTheTree) {
+  Surface surface = full_rectangle(64, 64);
+  remove_points(surface, [](const Eigen::Vector2i& pixel) { return pixel == Eigen::Vector2i(4, 4); });
+  EXPECT_EQ(select({3, 3, 3, 2, 1}, surface)->cells().size(), 64U);
+  EXPECT_EQ(select({3, 3, 2, 2, 1}, surface)->cells().size(), 63U);
+}
+
+TEST_F(QuadtreeTest, CollapsesToWhereItBeganWhereNoParentIsVirtual) {
+  for (const int side : {64, 61, 97}) {
+    const Surface surface = full_rectangle(side, side);
+    const auto nodes = select({5, 2, 10, 2, 1}, surface);
     const auto at_first = nodes->cells();
     for (int level = 2; level < 5; ++level) EXPECT_TRUE(nodes->adapt(device_, everywhere(surface, 5)));
     EXPECT_TRUE(nodes->adapt(device_, everywhere(surface, 0)));
@@ -217,7 +297,7 @@ TEST_F(QuadtreeTest, CollapsesToWhereItBegan) {
 
 TEST_F(QuadtreeTest, RefinesOnlyWhereItDoesNotFit) {
   const Surface surface = full_rectangle(64, 64);
-  const auto nodes = select({4, 2, 2, 1}, surface);
+  const auto nodes = select({4, 2, 10, 2, 1}, surface);
   std::vector<float> residuals;
   for (const Eigen::Vector2i& pixel : surface.pixels) residuals.push_back(pixel.x() < 16 ? 4.0F : 1.5F);
   while (nodes->adapt(device_, Array<float>(residuals))) {
@@ -231,7 +311,7 @@ TEST_F(QuadtreeTest, GrowsThroughVirtualNodesIntoRegionsWhoseCentreIsAHole) {
   remove_points(surface, [](const Eigen::Vector2i& pixel) {
     return pixel.x() >= 6 && pixel.x() <= 26 && pixel.y() >= 6 && pixel.y() <= 26;
   });
-  const auto nodes = select({4, 1, 2, 1}, surface);
+  const auto nodes = select({4, 1, 10, 2, 1}, surface);
   EXPECT_EQ(nodes->points().size(), 3U);
   EXPECT_TRUE(nodes->cells().front().is_virtual);
   for (int level = 1; level < 4; ++level) nodes->adapt(device_, everywhere(surface, 3));
@@ -244,22 +324,22 @@ TEST_F(QuadtreeTest, GrowsThroughVirtualNodesIntoRegionsWhoseCentreIsAHole) {
 
 TEST_F(QuadtreeTest, HasNoMoreLevelsThanPixelsAllow) {
   const Surface surface = full_rectangle(5, 4);
-  const auto nodes = select({10, 10, 2, 1}, surface);
+  const auto nodes = select({10, 10, 10, 2, 1}, surface);
   for (const GraphCell& cell : nodes->cells()) EXPECT_LE(cell.level, 2);
   EXPECT_FALSE(nodes->points().empty());
 }
 
 TEST_F(QuadtreeTest, OfOnePointIsThatPoint) {
   const Surface surface = full_rectangle(1, 1);
-  const auto nodes = select({6, 3, 2, 1}, surface);
+  const auto nodes = select({6, 3, 10, 2, 1}, surface);
   EXPECT_THAT(nodes->points(), testing::ElementsAre(0));
   EXPECT_FALSE(nodes->adapt(device_, everywhere(surface, 9)));
 }
 
 TEST_F(QuadtreeTest, GivesTheSameBitsTwice) {
   const Surface surface = holey_surface(96, 70, 5);
-  const auto once = select({6, 2, 2, 1.5}, surface);
-  const auto again = select({6, 2, 2, 1.5}, surface);
+  const auto once = select({6, 2, 10, 2, 1.5}, surface);
+  const auto again = select({6, 2, 10, 2, 1.5}, surface);
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Array<float> residuals(patchy_residuals(surface, seed));
     EXPECT_EQ(once->adapt(device_, residuals), again->adapt(device_, residuals));
@@ -272,7 +352,7 @@ TEST(QuadtreeSettings, ThresholdsInTheWrongOrderAreAnError) {
   for (const double collapse : {2.0, 3.0})
     EXPECT_THAT(
         [&] {
-          QuadtreeGraph(Settings{6, 3, 2, collapse});
+          QuadtreeGraph(Settings{6, 3, 10, 2, collapse});
         },
         testing::ThrowsMessage<ConfigError>(testing::HasSubstr("collapse_threshold")));
 }
@@ -280,7 +360,7 @@ TEST(QuadtreeSettings, ThresholdsInTheWrongOrderAreAnError) {
 TEST(QuadtreeSettings, MoreInitialLevelsThanLevelsAreAnError) {
   EXPECT_THAT(
       [] {
-        QuadtreeGraph(Settings{3, 4, 2, 1});
+        QuadtreeGraph(Settings{3, 4, 10, 2, 1});
       },
       testing::ThrowsMessage<ConfigError>(testing::HasSubstr("initial_levels is 4")));
 }

@@ -122,20 +122,56 @@ TEST(ProjectiveMatch, LooksAroundOnlyWhereTheProjectedPixelIsRejected) {
   EXPECT_NEAR(constraints.data.host()[0], 32, 1e-3);
 }
 
-TEST(ResidualMeter, AgreesWithItsReference) {
+/// Device and reference measure alike; gives what was measured.
+Residual expect_agreement(Device& device, const ProjectiveCorrespondence& projective, const Target& target,
+                          const PointSet& moved) {
+  ResidualMeter meter(device, projective, target, moved.points.size() / 3);
+  std::vector<float> per_point;
+  projective.measure_reference(moved, target, per_point);
+  const Residual expected = sum_residuals_reference(target, moved.points, per_point);
+  const Residual measured = meter.measure(moved);
+  EXPECT_EQ(measured.matched, expected.matched);
+  EXPECT_EQ(measured.landed, expected.landed);
+  EXPECT_EQ(measured.lost, expected.lost);
+  EXPECT_NEAR(measured.mean, expected.mean, 1e-4 * expected.mean);
+  for (std::size_t i = 0; i < per_point.size(); ++i)
+    EXPECT_NEAR(meter.per_point().host()[i], per_point[i], 1e-3) << "point " << i;
+  return measured;
+}
+
+TEST_P(Projective, MeasuresLikeItsReference) {
   Device device;
   std::mt19937 random(5);
   const Target target = make_target(random);
   const PointSet moved = make_moved(random, 1111);
-  ResidualMeter meter(device, target, 1111);
-  std::vector<float> per_point;
-  const Residual expected = measure_residual_reference(target, moved.points, per_point);
-  const Residual measured = meter.measure(moved.points);
-  EXPECT_GT(expected.landed, 300);
-  EXPECT_EQ(measured.landed, expected.landed);
-  EXPECT_NEAR(measured.mean, expected.mean, 1e-4 * expected.mean);
-  for (std::size_t i = 0; i < per_point.size(); ++i)
-    ASSERT_NEAR(meter.per_point().host()[i], per_point[i], 1e-3) << "point " << i;
+  const Residual residual = expect_agreement(
+      device, {GetParam().max_distance, GetParam().max_angle, GetParam().search_radius}, target, moved);
+  EXPECT_GT(residual.landed, 300);
+  EXPECT_GT(residual.matched, 50);
+  EXPECT_LT(residual.matched, residual.landed);
+}
+
+// A residual of what no constraint follows would ask for nodes where they can do nothing.
+TEST(ResidualMeter, KnowsNothingWhereTheMatchIsRejected) {
+  Device device;
+  std::mt19937 random(5);
+  const Target target = make_target(random);
+  const PointSet moved = make_moved(random, 800);
+  const ProjectiveCorrespondence projective(30, 0.9, 0);
+  std::vector<int> all(800);
+  std::iota(all.begin(), all.end(), 0);
+  Constraints constraints;
+  constraints.points = Array<float>(moved.points.host());
+  constraints.data = Array<float>(std::vector<float>(6 * 800));
+  constraints.confidence = Array<float>(std::vector<float>(800));
+  projective.match(device, moved, Array<int>(all), target, constraints);
+  ResidualMeter meter(device, projective, target, 800);
+  meter.measure(moved);
+  for (std::size_t i = 0; i < 800; ++i) {
+    const Eigen::Map<const Eigen::Vector3f> pull(constraints.data.host().data() + 6 * i);
+    const bool is_matched = constraints.confidence.host()[i] > 0;
+    ASSERT_NEAR(meter.per_point().host()[i], is_matched ? pull.norm() : -1, 1e-3) << "point " << i;
+  }
 }
 
 /// What is not finite in a target that was made by hand.
@@ -151,14 +187,8 @@ TEST(ResidualMeter, PointsOfTheTargetThatAreNotFiniteCountAsNone) {
   std::mt19937 random(5);
   Target target = make_target(random);
   spoil(target, random);
-  const PointSet moved = make_moved(random, 1111);
-  ResidualMeter meter(device, target, 1111);
-  std::vector<float> per_point;
-  const Residual expected = measure_residual_reference(target, moved.points, per_point);
-  const Residual measured = meter.measure(moved.points);
-  EXPECT_GT(expected.landed, 100);
-  EXPECT_EQ(measured.landed, expected.landed);
-  EXPECT_NEAR(measured.mean, expected.mean, 1e-4 * expected.mean);
+  const Residual measured = expect_agreement(device, {1000, 1, 0}, target, make_moved(random, 1111));
+  EXPECT_GT(measured.matched, 100);
   EXPECT_EQ(measured.lost, 0);
 }
 
@@ -198,6 +228,15 @@ TEST(Constraints, AreInForceWhenOneIs) {
   }
 }
 
+TEST(Constraints, AreWeighedOnTheDevice) {
+  Device device;
+  Constraints constraints;
+  constraints.points = Array<float>(std::vector<float>(9));
+  constraints.confidence = Array<float>(std::vector<float>{1, 0, 0.5F});
+  weigh(device, Array<float>(std::vector<float>{0.25F, 0.5F, 0.125F}), constraints);
+  EXPECT_THAT(constraints.confidence.host(), ::testing::ElementsAre(0.25F, 0, 0.0625F));
+}
+
 TEST(ResidualMeter, CountsThePointsThatAreLost) {
   Device device;
   std::mt19937 random(5);
@@ -207,19 +246,17 @@ TEST(ResidualMeter, CountsThePointsThatAreLost) {
   values[0] = std::numeric_limits<float>::quiet_NaN();
   values[1001] = std::numeric_limits<float>::infinity();
   values[2000] = 2e18F;
-  std::vector<float> per_point;
-  ResidualMeter meter(device, target, 700);
-  const Residual measured = meter.measure(moved.points);
-  EXPECT_EQ(measured.lost, 3);
-  EXPECT_EQ(measure_residual_reference(target, moved.points, per_point).lost, 3);
+  EXPECT_EQ(expect_agreement(device, {1000, 1, 0}, target, moved).lost, 3);
 }
 
 TEST(ResidualMeter, IsZeroWhereNothingLands) {
   Device device;
   std::mt19937 random(5);
   const Target target = make_target(random);
-  ResidualMeter meter(device, target, 1);
-  const Residual residual = meter.measure(Array<float>(std::vector<float>{0, 0, -10}));
+  const ProjectiveCorrespondence projective(1000, 1, 0);
+  ResidualMeter meter(device, projective, target, 1);
+  const Residual residual =
+      meter.measure({Array<float>(std::vector<float>{0, 0, -10}), Array<float>(std::vector<float>{0, 0, 0})});
   EXPECT_EQ(residual.landed, 0);
   EXPECT_EQ(residual.mean, 0);
   EXPECT_EQ(meter.per_point().host()[0], -1);

@@ -310,6 +310,11 @@ class SpoiltCorrespondence : public Correspondence {
     constraints.confidence.write_host()[0] = 1;
   }
 
+  void measure(Device& device, const PointSet& moved, const Target& target,
+               Array<float>& distances) const override {
+    correspondence_->measure(device, moved, target, distances);
+  }
+
  private:
   std::unique_ptr<Correspondence> correspondence_;
   mutable int matches_ = 0;

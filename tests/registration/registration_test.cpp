@@ -235,6 +235,37 @@ TEST_F(RegistrationTest, AnAdaptedGraphStartsWhereTheOneBeforeEnded) {
   EXPECT_EQ(result.energy.per_iteration.size(), static_cast<std::size_t>(result.counts.outer_iterations));
 }
 
+/// Nodes on one grid or the next, whichever was not there before.
+class RestlessNodes : public NodeSelection {
+ public:
+  explicit RestlessNodes(const Surface& source)
+      : points_(points_on_grid(source, 9)), others_(points_on_grid(source, 10)) {}
+  const std::vector<int>& points() const override { return points_; }
+  bool adapt(Device&, const Array<float>&) override {
+    std::swap(points_, others_);
+    return true;
+  }
+
+ private:
+  std::vector<int> points_, others_;
+};
+
+class RestlessGraph : public GraphBuilder {
+  std::unique_ptr<NodeSelection> select_nodes(Device&, const Surface& source, const Camera&) const override {
+    return std::make_unique<RestlessNodes>(source);
+  }
+};
+
+TEST_F(RegistrationTest, AGraphThatChangesWithoutGainingEndsTheLoop) {
+  const std::vector<std::string> sets{"stopping={min_progress: 0.9, max_iterations: 20}"};
+  Method method = method_of(sets);
+  method.graph = std::make_unique<RestlessGraph>();
+  const RegistrationResult result = register_pair(pair_of(sets), method, device_, 1);
+  EXPECT_EQ(result.termination, "no_progress");
+  EXPECT_GE(result.counts.outer_iterations, 2) << "a first new graph promises more";
+  EXPECT_LE(result.counts.outer_iterations, 5);
+}
+
 TEST_F(RegistrationTest, AdaptingFitsBetterThanTheGraphItBeganWith) {
   const auto residual = [&](const std::string& levels, const std::string& sampler) {
     const std::vector<std::string> sets{

@@ -36,7 +36,7 @@ std::map<std::pair<int, int>, Mask> masks_of(const Surface& surface, int step) {
 /// Which places of a full mask the case in the middle takes, as the selection itself shows them.
 std::set<std::pair<int, int>> spread_places(Device& device, int step) {
   const Surface mask = square(step);
-  const auto samples = AdaptiveSampler(step, threshold).select(device, mask, Camera{});
+  const auto samples = AdaptiveSampler(step, threshold, false).select(device, mask, Camera{});
   samples->adapt(device, Array<float>(std::vector<float>(mask.size(), 1.5F)));
   std::set<std::pair<int, int>> places;
   for (const int point : samples->points()) {
@@ -75,7 +75,7 @@ std::vector<int> select_reference(const Surface& surface, int step, const std::v
 class AdaptiveSamplerTest : public testing::Test {
  protected:
   std::unique_ptr<PointSelection> select(const Surface& surface, int step) {
-    return AdaptiveSampler(step, threshold).select(device_, surface, Camera{});
+    return AdaptiveSampler(step, threshold, false).select(device_, surface, Camera{});
   }
 
   std::size_t count_after(const Surface& surface, int step, float residual) {
@@ -158,6 +158,31 @@ TEST_F(AdaptiveSamplerTest, IsThatOfTheReference) {
         EXPECT_FALSE(samples->adapt(device_, Array<float>(residuals)));
       }
     }
+  }
+}
+
+TEST_F(AdaptiveSamplerTest, ConstraintsWeighTheSameUnlessMasksDo) {
+  const Surface surface = square(24);
+  const auto samples = select(surface, 4);
+  samples->adapt(device_, Array<float>(std::vector<float>(surface.size(), 9)));
+  EXPECT_THAT(samples->weights(), testing::IsEmpty());
+}
+
+TEST_F(AdaptiveSamplerTest, TheConstraintsOfAMaskWeighOneTogetherWhereMasksAreEqual) {
+  const Surface surface = holey_surface(96, 70, 2);
+  const auto samples = AdaptiveSampler(4, threshold, true).select(device_, surface, Camera{});
+  EXPECT_THAT(samples->weights(), testing::IsEmpty());  // one a mask at first
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    samples->adapt(device_, Array<float>(patchy_residuals(surface, seed)));
+    const std::vector<float> weights = samples->weights();
+    ASSERT_EQ(weights.size(), samples->points().size());
+    std::map<std::pair<int, int>, double> sums;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const Eigen::Vector2i& pixel = surface.pixels[static_cast<std::size_t>(samples->points()[i])];
+      sums[{pixel.y() / 4, pixel.x() / 4}] += weights[i];
+    }
+    EXPECT_LT(sums.size(), weights.size());
+    for (const auto& [mask, sum] : sums) EXPECT_NEAR(sum, 1, 1e-5) << mask.first << ", " << mask.second;
   }
 }
 
