@@ -68,23 +68,6 @@ void hide_left_part(DepthImage& depth, double share) {
   }
 }
 
-/// Takes the depth away from the left `share` of the columns between the first and the last with depth.
-void hide_left_part(DepthImage& depth, double share) {
-  int first = depth.width();
-  int end = 0;
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      if (depth(u, v) <= 0) continue;
-      first = std::min(first, u);
-      end = std::max(end, u + 1);
-    }
-  }
-  const int stop = first + static_cast<int>(std::lround(share * (end - first)));
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = first; u < stop; ++u) depth(u, v) = 0;
-  }
-}
-
 std::string described(const std::vector<std::string>& expression) {
   return expression.empty() ? "neutral" : fmt::format("{}", fmt::join(expression, " "));
 }

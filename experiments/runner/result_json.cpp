@@ -44,6 +44,7 @@ ordered_json alignment_json(const AlignmentResult& alignment) {
 
 ordered_json counts_json(const RegistrationResult::Counts& counts) {
   return {{"source_points", counts.source_points},
+          {"matched_points", counts.matched_points},
           {"nodes", counts.nodes},
           {"edges", counts.edges},
           {"constraints", counts.constraints},
@@ -106,6 +107,10 @@ ordered_json environment_json(const DeviceInfo& device, const ExperimentPlan& pl
 
 ordered_json run_json(const RunRecord& run) {
   const RegistrationResult& result = run.result;
+  ordered_json history = ordered_json::array();
+  for (const auto& step : result.history)
+    history.push_back(
+        {{"residual_mean", step.residual_mean}, {"robust", step.robust}, {"matched", step.matched}});
   return {{"name", run.name},
           {"termination", result.termination},
           {"reason", result.reason},
@@ -115,6 +120,8 @@ ordered_json run_json(const RunRecord& run) {
           {"metrics", metrics_json(run.metrics)},
           {"initial", metrics_json(run.initial)},
           {"aligned", metrics_json(run.aligned)},
+          {"history", history},
+          {"returned_iteration", result.returned_iteration},
           {"energy", energy_json(result.energy)},
           {"time_ms", time_json(result.total_ms, result.time_ms)},
           {"solver", solver_json(result.solver)}};

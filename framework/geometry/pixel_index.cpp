@@ -1,6 +1,9 @@
 #include "framework/geometry/pixel_index.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
 
 namespace pliant {
 namespace {
@@ -53,8 +56,7 @@ int point_at(const PixelIndex& index, const Eigen::Vector2i& pixel, const PixelB
   return quadrants == 15 ? nearest : -1;
 }
 
-std::vector<int> points_on_grid(const Surface& surface, int step) {
-  const PixelIndex index = index_pixels(surface);
+std::vector<int> points_on_grid(const PixelIndex& index, int step) {
   std::vector<int> found;
   const int centre = step / 2;
   for (int top = index.top / step * step; top < index.top + index.points.height(); top += step) {
@@ -66,6 +68,25 @@ std::vector<int> points_on_grid(const Surface& surface, int step) {
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+std::vector<int> points_on_grid(const Surface& surface, int step) {
+  return points_on_grid(index_pixels(surface), step);
+}
+
+std::vector<int> about_as_many_points_on_grid(const Surface& surface, int wished) {
+  const PixelIndex index = index_pixels(surface);
+  const double guess = std::sqrt(static_cast<double>(surface.size()) / wished);
+  std::vector<int> best;
+  const auto miss = [&](const std::vector<int>& points) {
+    return std::abs(static_cast<int>(points.size()) - wished);
+  };
+  // Holes and ragged rims make the guess inexact, never by as much as a factor of two.
+  for (int step = static_cast<int>(2 * guess) + 1; step >= std::max(1, static_cast<int>(guess / 2)); --step) {
+    auto points = points_on_grid(index, step);
+    if (best.empty() || miss(points) < miss(best)) best = std::move(points);
+  }
+  return best;
 }
 
 }  // namespace pliant

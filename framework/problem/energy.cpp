@@ -1,5 +1,6 @@
 #include "framework/problem/energy.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "framework/problem/loss.h"
@@ -32,16 +33,35 @@ Real with_loss(const std::string& name, Apply apply) {
 
 ParameterTable energy_table(const Energy& energy) {
   std::vector<Parameter> rows{
-      real("weight", energy.weight).at_least(0).doc("Factor of this term in E_tot [Eq. 4.6]")};
-  if (energy.stencil == Stencil::per_constraint) {
+      real("weight", energy.weight).at_least(0).doc("Factor of this term in E_tot [Eq. 4.6]"),
+      real("initial_weight")
+          .above(0)
+          .optional()
+          .doc("The same in the first outer iteration; `schedule` leads from there to `weight`")};
+  if (energy.takes_loss()) {
     rows.push_back(choice("loss", loss_names(), energy.loss.name)
-                       .doc("Robust loss of a constraint's squared residual; none: the square itself"));
+                       .doc("Robust loss of the squared residual; none: the square itself"));
     rows.push_back(real("loss_scale", energy.loss.scale)
                        .unit("mm")
                        .above(0)
                        .doc("Residual at which the loss begins to take it for an outlier"));
+    rows.push_back(
+        real("initial_loss_scale")
+            .unit("mm")
+            .above(0)
+            .optional()
+            .doc("The same in the first outer iteration; `schedule` leads from there to `loss_scale`"));
   }
   return ParameterTable(std::move(rows));
+}
+
+std::optional<double> optional_real(const Parameters& parameters, const std::string& name) {
+  if (!parameters.has(name)) return std::nullopt;
+  return parameters.real(name);
+}
+
+double between(std::optional<double> initial, double final, double remaining) {
+  return initial && final > 0 ? final * std::pow(*initial / final, remaining) : final;
 }
 
 }  // namespace
@@ -49,6 +69,13 @@ ParameterTable energy_table(const Energy& energy) {
 const std::vector<std::string>& loss_names() {
   static const std::vector<std::string> names{"none", "huber", "tukey", "welsch"};
   return names;
+}
+
+Energy Energy::at(double remaining) const {
+  Energy energy = *this;
+  energy.weight = between(initial_weight, weight, remaining);
+  energy.loss.scale = between(initial_loss_scale, loss.scale, remaining);
+  return energy;
 }
 
 double Loss::value(double s) const {
@@ -69,8 +96,10 @@ void add_energy(Registry& registry, const std::string& name, const std::string& 
                        [energy](const Parameters& parameters, const Registry&) {
                          auto made = std::make_unique<Energy>(energy);
                          made->weight = parameters.real("weight");
-                         if (energy.stencil == Stencil::per_constraint)
-                           made->loss = {parameters.text("loss"), parameters.real("loss_scale")};
+                         made->initial_weight = optional_real(parameters, "initial_weight");
+                         if (!energy.takes_loss()) return made;
+                         made->loss = {parameters.text("loss"), parameters.real("loss_scale")};
+                         made->initial_loss_scale = optional_real(parameters, "initial_loss_scale");
                          return made;
                        });
 }

@@ -2,6 +2,7 @@
 
 #include <ceres/jet.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,14 +95,27 @@ struct Energy {
   Equation equation;
   double weight = 1;
   ConstraintSource source = ConstraintSource::surface;  ///< of a per_constraint energy
-  Loss loss = {};                                       ///< of a per_constraint energy
+  Loss loss = {};                                       ///< where takes_loss()
+  /// Of the first outer iteration of a registration, where they differ from `weight` and `loss.scale`.
+  std::optional<double> initial_weight = {};
+  std::optional<double> initial_loss_scale = {};
+
+  /// Whether its residual is a length that may be an outlier. (The rows of edges stay as they are from step
+  /// to step: solvers rest on that.)
+  bool takes_loss() const {
+    return stencil == Stencil::per_constraint || (stencil == Stencil::per_node && in_length);
+  }
+
+  /// The energy as it counts on the way from its initial weight and loss scale (`remaining` = 1) to the final
+  /// ones (0), which they approach geometrically.
+  Energy at(double remaining) const;
 
   bool uses_features() const {
     return stencil == Stencil::per_constraint && source == ConstraintSource::features;
   }
 };
 
-/// Registers an energy whose parameters are its weight and, for a per_constraint one, its loss.
+/// Registers an energy whose parameters are its weight and, where it takes one, its loss.
 /// Throws std::logic_error for more residuals than max_residuals.
 void add_energy(Registry& registry, const std::string& name, const std::string& doc, const Energy& energy);
 

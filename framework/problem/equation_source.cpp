@@ -42,11 +42,19 @@ std::string transform_source(const NodeTransform& transform, int stride) {
       embedded::framework_problem_transform_cl);
 }
 
-std::string loss_source(const Loss& loss, const std::string& real) {
+std::string losses_source(const std::string& real) {
+  return as_opencl(embedded::framework_problem_loss_h, real);
+}
+
+std::string loss_choice_source(const Loss& loss) {
   return fmt::format(
-      "{0}\n#define LOSS_VALUE(s, scale) {1}_value(s, scale)\n"
-      "#define LOSS_WEIGHT(s, scale) {1}_weight(s, scale)\n",
-      as_opencl(embedded::framework_problem_loss_h, real), loss.name);
+      "#undef LOSS_VALUE\n#undef LOSS_WEIGHT\n#define LOSS_VALUE(s, scale) {0}_value(s, scale)\n"
+      "#define LOSS_WEIGHT(s, scale) {0}_weight(s, scale)\n",
+      loss.name);
+}
+
+std::string loss_source(const Loss& loss, const std::string& real) {
+  return losses_source(real) + loss_choice_source(loss);
 }
 
 }  // namespace pliant

@@ -19,7 +19,13 @@ std::string equation_source(const Energy& energy, const std::string& real);
 /// `stride` numbers a node.
 std::string transform_source(const NodeTransform& transform, int stride);
 
-/// The functions of loss.h as OpenCL C over `real`, and LOSS_VALUE(s, scale), LOSS_WEIGHT(s, scale) for one of them.
+/// The functions of loss.h as OpenCL C over `real`.
+std::string losses_source(const std::string& real);
+
+/// Makes LOSS_VALUE(s, scale) and LOSS_WEIGHT(s, scale) stand for one of them.
+std::string loss_choice_source(const Loss& loss);
+
+/// Both.
 std::string loss_source(const Loss& loss, const std::string& real);
 
 }  // namespace pliant

@@ -47,14 +47,16 @@ float squared(const float* r, int rows) {
 #if defined(PER_NODE)
 
 // Adds J^T J (12x12) and J^T r (12) of each node to what stands there.
-kernel void KERNEL(evaluate)(global const int* status, int count, float weight, global const float* affine,
-                             global const int* diagonal, global float* blocks, global float* gradient) {
+kernel void KERNEL(evaluate)(global const int* status, int count, float weight, float loss_scale,
+                             global const float* affine, global const int* diagonal, global float* blocks,
+                             global float* gradient) {
   const int i = get_global_id(0);
   if (status[0] || i >= count) return;
   float u[12], r[ROWS], J[ROWS * 12];
   load_node(u, i, affine);
   NAME_RESIDUAL(u, u, r);
   NAME_JACOBIAN(u, u, J);
+  weight *= LOSS_WEIGHT(squared(r, ROWS), loss_scale);
   global float* block = blocks + 144 * diagonal[i];
   for (int a = 0; a < 12; ++a) {
     float sum = 0;
@@ -68,8 +70,8 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
   }
 }
 
-kernel void KERNEL(energy)(global const int* status, int count, float weight, global const float* affine,
-                           global float* partials, int first_partial) {
+kernel void KERNEL(energy)(global const int* status, int count, float weight, float loss_scale,
+                           global const float* affine, global float* partials, int first_partial) {
   const int first = get_global_id(0) * CHUNK;
   if (status[0] || first >= count) return;
   float sum = 0;
@@ -77,7 +79,7 @@ kernel void KERNEL(energy)(global const int* status, int count, float weight, gl
     float u[12], r[ROWS];
     load_node(u, i, affine);
     NAME_RESIDUAL(u, u, r);
-    sum += squared(r, ROWS);
+    sum += LOSS_VALUE(squared(r, ROWS), loss_scale);
   }
   partials[first_partial + get_global_id(0)] = weight * sum;
 }

@@ -181,8 +181,8 @@ void NormalEquations::assemble_term(TermKernels& term, const cl::Buffer& status)
   const Kind* kind = term.kind;
   switch (term.term->energy.stencil) {
     case Stencil::per_node:
-      device.run("jacobian", term.evaluate, count, group_size, status, term.count, weight, unknowns,
-                 diagonal_.device(device), blocks_, gradient_);
+      device.run("jacobian", term.evaluate, count, group_size, status, term.count, weight,
+                 loss_scale_of(term), unknowns, diagonal_.device(device), blocks_, gradient_);
       break;
     case Stencil::per_edge:
       device.run("jacobian", term.evaluate, count, group_size, status, term.count, weight, unknowns,
@@ -224,8 +224,8 @@ void NormalEquations::sum_energy(const cl::Buffer& unknowns, const cl::Buffer& s
     const auto first = static_cast<cl_int>(offset);
     switch (term->term->energy.stencil) {
       case Stencil::per_node:
-        device.run("energy", term->energy, partials, 1, status, term->count, weight, unknowns,
-                   energy_partials_, first);
+        device.run("energy", term->energy, partials, 1, status, term->count, weight, loss_scale_of(*term),
+                   unknowns, energy_partials_, first);
         break;
       case Stencil::per_edge:
         device.run("energy", term->energy, partials, 1, status, term->count, weight, unknowns, node_points,

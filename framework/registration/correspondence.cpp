@@ -18,6 +18,13 @@ Vector at(const Array<float>& vectors, std::size_t index) {
   return Vector(vectors.host().data() + 3 * index);
 }
 
+constexpr float steepest_slope = 10;  // STEEPEST_SLOPE in projection.cl
+
+Eigen::Vector3f mean_normal(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  const Eigen::Vector3f sum = a + b;
+  return sum.squaredNorm() > 1e-6F ? Eigen::Vector3f(sum.normalized()) : Eigen::Vector3f::Zero();
+}
+
 }  // namespace
 
 bool any_in_force(Device& device, const Constraints& constraints) {
@@ -34,10 +41,11 @@ void weigh(Device& device, const Array<float>& weights, Constraints& constraints
              weights.device(device), constraints.confidence.write_device(device));
 }
 
-ProjectiveCorrespondence::ProjectiveCorrespondence(double max_distance, double max_angle, int search_radius)
-    : max_distance_(static_cast<float>(max_distance)),
-      least_cosine_(static_cast<float>(std::cos(max_angle))),
-      search_radius_(search_radius) {}
+ProjectiveCorrespondence::ProjectiveCorrespondence(const ProjectiveOptions& options)
+    : options_(options),
+      max_distance_(static_cast<float>(options.max_distance)),
+      least_cosine_(static_cast<float>(std::cos(options.max_angle))),
+      least_facing_(static_cast<float>(std::cos(options.max_view_angle))) {}
 
 void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, const Array<int>& selected,
                                      const Target& target, Constraints& constraints) const {
@@ -46,7 +54,8 @@ void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, cons
              selected.device(device), constraints.points.device(device), moved.points.device(device),
              moved.normals.device(device), pinhole(target.camera), image_size(target.camera),
              target.points.device(device), target.normals.device(device), max_distance_, least_cosine_,
-             static_cast<cl_int>(search_radius_), constraints.data.write_device(device),
+             least_facing_, cl_int{options_.search_radius}, cl_int{options_.steps}, cl_int{options_.rim},
+             cl_int{options_.symmetric}, constraints.data.write_device(device),
              constraints.confidence.write_device(device));
 }
 
@@ -56,7 +65,7 @@ void ProjectiveCorrespondence::measure(Device& device, const PointSet& moved, co
   device.run("residual", kernel, distances.size(), 64, static_cast<cl_int>(distances.size()),
              moved.points.device(device), moved.normals.device(device), pinhole(target.camera),
              image_size(target.camera), target.points.device(device), target.normals.device(device),
-             max_distance_, least_cosine_, distances.write_device(device));
+             max_distance_, least_cosine_, least_facing_, distances.write_device(device));
 }
 
 void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const Target& target,
@@ -64,8 +73,9 @@ void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const Ta
   distances.assign(moved.points.size() / 3, -1);
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const Eigen::Vector3f point = at(moved.points, i);
+    const Eigen::Vector3f normal = at(moved.normals, i);
     const auto pixel = target_pixel_reference(target, point);
-    if (pixel && accepts(target, *pixel, point, at(moved.normals, i)))
+    if (pixel && is_facing(point, normal) && accepts(target, *pixel, point, normal))
       distances[i] = (point - at(target.points, *pixel)).norm();
   }
 }
@@ -78,17 +88,63 @@ bool ProjectiveCorrespondence::accepts(const Target& target, std::size_t pixel, 
          (!has_normals || normal.dot(target_normal) >= least_cosine_);
 }
 
-std::optional<std::size_t> ProjectiveCorrespondence::match_point(const Target& target,
+bool ProjectiveCorrespondence::is_facing(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
+  return !(normal.squaredNorm() > 0) || -normal.dot(point) >= least_facing_ * point.norm();
+}
+
+bool ProjectiveCorrespondence::is_rim(const Target& target, std::size_t pixel) const {
+  const int width = target.camera.width;
+  const int u = static_cast<int>(pixel) % width;
+  const int v = static_cast<int>(pixel) / width;
+  const int rim = options_.rim;
+  if (u < rim || v < rim || u + rim >= width || v + rim >= target.camera.height) return true;
+  const float z = at(target.points, pixel).z();
+  const float jump = steepest_slope * static_cast<float>(rim) * z /
+                     static_cast<float>(std::max(target.camera.fx, target.camera.fy));
+  for (const int dv : {-rim, 0, rim})
+    for (const int du : {-rim, 0, rim}) {
+      const float other =
+          finite_or_none(target.points, static_cast<std::size_t>((v + dv) * width + u + du)).z();
+      if (!(other > 0 && std::abs(other - z) <= jump)) return true;
+    }
+  return false;
+}
+
+std::size_t ProjectiveCorrespondence::walk(const Target& target, const Eigen::Vector3f& point,
+                                           std::size_t pixel) const {
+  const auto distance = [&](std::size_t to) { return (point - at(target.points, to)).norm(); };
+  for (int step = 0; step < options_.steps; ++step) {
+    const Eigen::Vector3f n = finite_or_none(target.normals, pixel);
+    const Eigen::Vector3f foot = point - (point - at(target.points, pixel)).dot(n) * n;
+    const Pixel next = target_pixel_reference(target, foot);
+    if (!next || !(distance(*next) < distance(pixel))) break;
+    pixel = *next;
+  }
+  const int width = target.camera.width;
+  for (int step = 0; step < options_.steps; ++step) {
+    const std::size_t before = pixel;
+    const int u = static_cast<int>(pixel) % width;
+    const int v = static_cast<int>(pixel) / width;
+    for (int y = std::max(v - 1, 0); y <= std::min(v + 1, target.camera.height - 1); ++y)
+      for (int x = std::max(u - 1, 0); x <= std::min(u + 1, width - 1); ++x) {
+        const auto next = static_cast<std::size_t>(y * width + x);
+        if (finite_or_none(target.points, next).z() > 0 && distance(next) < distance(pixel)) pixel = next;
+      }
+    if (pixel == before) break;
+  }
+  return pixel;
+}
+
+ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::search(const Target& target,
                                                                  const Eigen::Vector3f& point,
                                                                  const Eigen::Vector3f& normal) const {
-  const auto projected = target_pixel_reference(target, point);
-  if (projected && accepts(target, *projected, point, normal)) return projected;
-  if (search_radius_ == 0 || !(point.z() > 0)) return std::nullopt;
+  const int radius = options_.search_radius;
+  if (radius == 0 || !(point.z() > 0)) return std::nullopt;
   const Eigen::Vector2d centre = target.camera.project(point.cast<double>()).array().round();
-  std::optional<std::size_t> best;
+  Pixel best;
   for (int v = 0; v < target.camera.height; ++v)
     for (int u = 0; u < target.camera.width; ++u) {
-      if (std::abs(u - centre.x()) > search_radius_ || std::abs(v - centre.y()) > search_radius_) continue;
+      if (std::abs(u - centre.x()) > radius || std::abs(v - centre.y()) > radius) continue;
       const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(target.camera.width) +
                          static_cast<std::size_t>(u);
       if (!(finite_or_none(target.points, pixel).z() > 0) || !accepts(target, pixel, point, normal)) continue;
@@ -98,6 +154,17 @@ std::optional<std::size_t> ProjectiveCorrespondence::match_point(const Target& t
   return best;
 }
 
+ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::match_point(const Target& target,
+                                                                      const Eigen::Vector3f& point,
+                                                                      const Eigen::Vector3f& normal) const {
+  if (!is_facing(point, normal)) return std::nullopt;
+  Pixel pixel = target_pixel_reference(target, point);
+  if (pixel) pixel = walk(target, point, *pixel);
+  if (!pixel || !accepts(target, *pixel, point, normal)) pixel = search(target, point, normal);
+  if (pixel && options_.rim > 0 && is_rim(target, *pixel)) return std::nullopt;
+  return pixel;
+}
+
 void ProjectiveCorrespondence::match_reference(const PointSet& moved, const Array<int>& selected,
                                                const Target& target, Constraints& constraints) const {
   auto& data = constraints.data.write_host();
@@ -105,34 +172,95 @@ void ProjectiveCorrespondence::match_reference(const PointSet& moved, const Arra
   std::fill(data.begin(), data.end(), 0.0F);
   for (std::size_t i = 0; i < selected.size(); ++i) {
     const auto point = static_cast<std::size_t>(selected.host()[i]);
-    const auto pixel = match_point(target, at(moved.points, point), at(moved.normals, point));
+    const Eigen::Vector3f normal = at(moved.normals, point);
+    const Pixel pixel = match_point(target, at(moved.points, point), normal);
     confidence[i] = pixel ? 1.0F : 0.0F;
     if (!pixel) continue;
+    Eigen::Vector3f plane = finite_or_none(target.normals, *pixel);
+    if (options_.symmetric && plane.squaredNorm() > 0) plane = mean_normal(plane, normal);
     Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i) = at(target.points, *pixel) - at(constraints.points, i);
-    Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i + 3) = finite_or_none(target.normals, *pixel);
+    Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i + 3) = plane;
   }
 }
 
-void register_correspondences(Registry& registry) {
+namespace {
+
+/// Rows that all correspondences share, with defaults of their own.
+std::vector<Parameter> match_rows(const ProjectiveOptions& defaults) {
+  const auto degrees = [](double radians) { return std::round(radians * 180 / std::numbers::pi); };
+  return {
+      real("max_distance", defaults.max_distance).unit("mm").above(0).doc("A match further away is rejected"),
+      real("max_angle", degrees(defaults.max_angle))
+          .unit("degree")
+          .range(0, 180)
+          .doc("A match whose normals differ by more is rejected; without normals distance alone decides"),
+      real("max_view_angle", degrees(defaults.max_view_angle))
+          .unit("degree")
+          .range(0, 180)
+          .doc("A point whose normal turns further away from the camera cannot be seen and has no match"),
+      integer("rim", defaults.rim)
+          .unit("pixel")
+          .range(0, 64)
+          .doc(
+              "A match so near to where the target ends or jumps in depth is rejected: what is hidden behind "
+              "would be drawn there; 0: none is"),
+  };
+}
+
+ProjectiveOptions read_match(const Parameters& parameters) {
+  ProjectiveOptions options;
+  options.max_distance = parameters.real("max_distance");
+  options.max_angle = parameters.real("max_angle") * std::numbers::pi / 180;
+  options.max_view_angle = parameters.real("max_view_angle") * std::numbers::pi / 180;
+  options.rim = static_cast<int>(parameters.integer("rim"));
+  return options;
+}
+
+void register_projective(Registry& registry) {
+  std::vector<Parameter> rows = match_rows({});
+  rows.push_back(
+      integer("search_radius", 0)
+          .unit("pixel")
+          .range(0, 512)
+          .doc("Where the match is rejected, the nearest acceptable target point within this is taken"));
   registry.add<Correspondence>(
       "projective", "The target point at the pixel that a source point projects to [thesis 4.2]",
-      {
-          real("max_distance", 100).unit("mm").above(0).doc("A match further away is rejected"),
-          real("max_angle", 75)
-              .unit("degree")
-              .range(0, 180)
-              .doc(
-                  "A match whose normals differ by more is rejected; without normals distance alone decides"),
-          integer("search_radius", 0)
-              .unit("pixel")
-              .range(0, 512)
-              .doc("Where the match is rejected, the nearest acceptable target point within this is taken"),
-      },
-      [](const Parameters& parameters, const Registry&) {
-        return std::make_unique<ProjectiveCorrespondence>(
-            parameters.real("max_distance"), parameters.real("max_angle") * std::numbers::pi / 180,
-            static_cast<int>(parameters.integer("search_radius")));
+      ParameterTable(std::move(rows)), [](const Parameters& parameters, const Registry&) {
+        ProjectiveOptions options = read_match(parameters);
+        options.search_radius = static_cast<int>(parameters.integer("search_radius"));
+        return std::make_unique<ProjectiveCorrespondence>(options);
       });
+}
+
+void register_closest(Registry& registry) {
+  ProjectiveOptions defaults;
+  defaults.max_distance = 40;
+  defaults.max_angle = std::numbers::pi / 3;
+  defaults.max_view_angle = 80 * std::numbers::pi / 180;
+  defaults.rim = 2;
+  std::vector<Parameter> rows = match_rows(defaults);
+  rows.push_back(integer("steps", 4)
+                     .range(1, 64)
+                     .doc("Longest walk, from tangent plane to tangent plane and then from pixel to pixel"));
+  rows.push_back(
+      choice("planes", {"symmetric", "target"}, "symmetric")
+          .doc("Tangent planes that energies get: half-way between both normals of a match, or the "
+               "target's"));
+  registry.add<Correspondence>(
+      "closest", "The target point closest in space, found from the pixel that a source point projects to",
+      ParameterTable(std::move(rows)), [](const Parameters& parameters, const Registry&) {
+        ProjectiveOptions options = read_match(parameters);
+        options.steps = static_cast<int>(parameters.integer("steps"));
+        options.symmetric = parameters.text("planes") == "symmetric";
+        return std::make_unique<ProjectiveCorrespondence>(options);
+      });
+}
+
+}  // namespace
+
+void register_correspondences(Registry& registry) {
+  register_projective(registry);
+  register_closest(registry);
 }
 
 }  // namespace pliant

@@ -30,7 +30,7 @@ bool any_in_force(Device& device, const Constraints& constraints);
 /// Multiplies the confidence of each constraint by its weight; only enqueues.
 void weigh(Device& device, const Array<float>& weights, Constraints& constraints);
 
-/// Adds `projective`.
+/// Adds `projective` and `closest`.
 void register_correspondences(Registry& registry);
 
 }  // namespace pliant

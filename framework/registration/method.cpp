@@ -16,48 +16,27 @@ ParameterTable stopping_table() {
       real("min_progress", rule.min_progress)
           .range(0, 1)
           .doc("Ends when the mean residual falls by less than this share of itself"),
+      real("cut", rule.cut)
+          .unit("mm")
+          .above(0)
+          .doc("The iteration is returned whose residuals, one above this or of a point without a match "
+               "counting as this, have the least mean square; the alignment itself if none is better"),
   };
 }
 
 StoppingRule make_stopping(const Parameters& section) {
   return {static_cast<int>(section.integer("max_iterations")), section.real("residual"),
-          section.real("min_progress")};
+          section.real("min_progress"), section.real("cut")};
 }
 
-ParameterTable relaxation_table() {
-  const Relaxation relaxation;
-  return {
-      integer("stages", relaxation.stages)
-          .range(1, 100)
-          .doc("Stages from a stiff start to none; 1: no relaxation"),
-      real("stiffness", relaxation.stiffness)
-          .above(0)
-          .doc(
-              "Factor of the energies per node and per edge in the first stage; it falls geometrically to 1"),
-      real("loss_scale", relaxation.loss_scale)
-          .above(0)
-          .doc("Factor of the scale of robust losses in the first stage; it falls geometrically to 1"),
-      integer("iterations", relaxation.iterations)
-          .range(1, 10000)
-          .doc("Outer iterations of a stage at most, but for the last; no progress ends it sooner"),
-  };
-}
-
-Relaxation make_relaxation(const Parameters& section) {
-  return {static_cast<int>(section.integer("stages")), section.real("stiffness"), section.real("loss_scale"),
-          static_cast<int>(section.integer("iterations"))};
+ParameterTable schedule_table() {
+  return {integer("iterations", Schedule().iterations)
+              .range(0, 10000)
+              .doc("Outer iterations over which weights and loss scales of energies go from their initial "
+                   "values to the final ones, geometrically")};
 }
 
 }  // namespace
-
-Energy Relaxation::relaxed(Energy energy, int stage) const {
-  const double remaining = stages < 2 ? 0 : static_cast<double>(stages - 1 - stage) / (stages - 1);
-  if (energy.stencil == Stencil::per_constraint)
-    energy.loss.scale *= std::pow(loss_scale, remaining);
-  else
-    energy.weight *= std::pow(stiffness, remaining);
-  return energy;
-}
 
 bool uses_features(const Method& method) {
   return std::any_of(method.energies.begin(), method.energies.end(),
@@ -82,8 +61,7 @@ std::vector<Parameter> method_rows() {
           .above(0)
           .doc("Unit of length in the energies: 1000 for metres; it shifts the balance of their weights"),
       component("solver", "solver", "gauss_newton").doc("What minimises E_tot"),
-      group("relaxation", relaxation_table())
-          .doc("A stiff and tolerant start that is relaxed stage by stage"),
+      group("schedule", schedule_table()).doc("A stiff and tolerant start, if energies have initial values"),
       group("stopping", stopping_table()).doc("When the outer loop ends"),
   };
 }
@@ -101,7 +79,7 @@ Method make_method(const Parameters& experiment, const Registry& registry) {
     method.energies.push_back(*registry.make<Energy>(section));
   method.length_unit = experiment.real("length_unit");
   method.solver = registry.make<Solver>(experiment.section("solver"));
-  method.relaxation = make_relaxation(experiment.section("relaxation"));
+  method.schedule = {static_cast<int>(experiment.section("schedule").integer("iterations"))};
   method.stopping = make_stopping(experiment.section("stopping"));
   return method;
 }

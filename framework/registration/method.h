@@ -19,19 +19,20 @@ struct StoppingRule {
   int max_iterations = 30;
   double residual = 0;         ///< mm; ends when the mean residual is below
   double min_progress = 1e-3;  ///< ends when the mean residual falls by less than this share of itself
+  /// mm; of the robust residual (Residual::robust), by which the iteration is chosen that is returned.
+  double cut = 5;
 };
 
-/// A stiff and tolerant start, relaxed stage by stage. What is stiff is not bent by matches that are far from
-/// the truth, and a surface that is nearly in place finds better ones (Amberg et al. 2007); a wide loss takes
-/// nothing for an outlier that is only far away yet (graduated non-convexity, Blake and Zisserman 1987).
-struct Relaxation {
-  int stages = 1;
-  double stiffness = 1;   ///< factor in the first stage of the energies per node and per edge
-  double loss_scale = 1;  ///< factor in the first stage of the scale of robust losses
-  int iterations = 5;     ///< outer iterations at most in each stage but the last
+/// How weights and scales of losses go from their initial values to the final ones. What is stiff at first is
+/// not bent by matches that are far from the truth (Amberg et al. 2007); a wide loss takes nothing for an
+/// outlier that is only far away yet (graduated non-convexity, Blake and Zisserman 1987).
+struct Schedule {
+  int iterations = 0;  ///< outer iterations until the final values are reached
 
-  /// The term as it counts in a stage: the factors fall geometrically, to 1 in the last stage.
-  Energy relaxed(Energy energy, int stage) const;
+  /// How much lies ahead before an outer iteration: 1 before the first, 0 from the end on.
+  double remaining(int iteration) const {
+    return iteration < iterations ? 1 - static_cast<double>(iteration) / iterations : 0;
+  }
 };
 
 /// How a pair is registered: the components that an experiment file puts together.
@@ -46,7 +47,7 @@ struct Method {
   std::vector<Energy> energies;
   double length_unit = 1;  ///< mm per unit of length in the energies
   std::unique_ptr<Solver> solver;
-  Relaxation relaxation;
+  Schedule schedule;
   StoppingRule stopping;
 };
 

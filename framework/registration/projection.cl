@@ -3,6 +3,17 @@
 
 #define FARTHEST 1e18f  // farthest_depth of image.h
 
+// Between neighbouring pixels: a surface seen under more than 84 degrees, or two of them.
+#define STEEPEST_SLOPE 10.0f
+
+typedef struct {
+  float max_distance;
+  float least_cosine;
+  int search_radius;
+  int steps;
+  int rim;
+} Limits;
+
 // A vector of the target; one that is not finite, or so long that its square is not, counts as none.
 float3 load_finite(int pixel, global const float* vectors) {
   const float3 v = vload3(pixel, vectors);
@@ -69,24 +80,99 @@ int nearest_pixel(float3 p, float3 normal, int radius, float4 camera, int2 size,
   return best;
 }
 
+// Whether a camera at the origin sees the side of the surface that the normal points to. Without a normal it
+// is taken to.
+int is_facing(float3 p, float3 normal, float least_facing) {
+  return !(dot(normal, normal) > 0) || -dot(normal, p) >= least_facing * length(p);
+}
+
+// Whether the target ends, or jumps in depth, at most `rim` pixels from a pixel that has a point. What lies
+// beyond is not seen: the nearest point of all that went out of sight is found here.
+int is_rim(int pixel, int rim, float4 camera, int2 size, global const float* target_points) {
+  const int u = pixel % size.x, v = pixel / size.x;
+  if (u < rim || v < rim || u + rim >= size.x || v + rim >= size.y) return 1;
+  const float z = target_points[3 * pixel + 2];
+  const float jump = STEEPEST_SLOPE * rim * z / fmax(camera.x, camera.y);
+  for (int dv = -rim; dv <= rim; dv += rim)
+    for (int du = -rim; du <= rim; du += rim) {
+      const float other = load_finite(pixel + dv * size.x + du, target_points).z;
+      if (!(other > 0 && fabs(other - z) <= jump)) return 1;
+    }
+  return 0;
+}
+
+// The pixel of the target point nearest to p that a walk of at most `steps` steps from `pixel` finds: from
+// the foot of p on one tangent plane to that on the next; where that comes no nearer, from pixel to pixel.
+int closest_pixel(float3 p, int pixel, int steps, float4 camera, int2 size, global const float* target_points,
+                  global const float* target_normals) {
+  float least = distance(p, vload3(pixel, target_points));
+  int is_nearer = 1;
+  for (int step = 0; step < steps && is_nearer; ++step) {
+    const float3 n = load_finite(pixel, target_normals);
+    const float3 foot = p - dot(p - vload3(pixel, target_points), n) * n;
+    const int next = target_pixel(foot, camera, size, target_points);
+    const float away = next >= 0 ? distance(p, vload3(next, target_points)) : least;
+    is_nearer = away < least;
+    if (is_nearer) pixel = next;
+    least = fmin(away, least);
+  }
+  is_nearer = 1;
+  for (int step = 0; step < steps && is_nearer; ++step) {
+    const int u = pixel % size.x, v = pixel / size.x;
+    is_nearer = 0;
+    for (int y = max(v - 1, 0); y <= min(v + 1, size.y - 1); ++y)
+      for (int x = max(u - 1, 0); x <= min(u + 1, size.x - 1); ++x) {
+        const float3 q = load_finite(y * size.x + x, target_points);
+        const float away = distance(p, q);
+        if (!(q.z > 0 && away < least)) continue;
+        pixel = y * size.x + x;
+        least = away;
+        is_nearer = 1;
+      }
+  }
+  return pixel;
+}
+
+// The pixel of the match of a point that may be seen, -1 where there is none.
+int matched_pixel(float3 p, float3 normal, Limits limits, float4 camera, int2 size,
+                  global const float* target_points, global const float* target_normals) {
+  int pixel = target_pixel(p, camera, size, target_points);
+  if (pixel >= 0 && limits.steps > 0)
+    pixel = closest_pixel(p, pixel, limits.steps, camera, size, target_points, target_normals);
+  if (pixel >= 0 && !is_acceptable(p, normal, pixel, target_points, target_normals, limits.max_distance,
+                                   limits.least_cosine))
+    pixel = -1;
+  if (pixel < 0 && limits.search_radius > 0)
+    pixel = nearest_pixel(p, normal, limits.search_radius, camera, size, target_points, target_normals,
+                          limits.max_distance, limits.least_cosine);
+  if (pixel >= 0 && limits.rim > 0 && is_rim(pixel, limits.rim, camera, size, target_points)) pixel = -1;
+  return pixel;
+}
+
+// The unit vector half-way between the normals of a match; (0, 0, 0) where they are opposite.
+float3 mean_normal(float3 a, float3 b) {
+  const float3 sum = a + b;
+  return dot(sum, sum) > 1e-6f ? normalize(sum) : (float3)(0);
+}
+
 // One constraint a work-item.
 kernel void match(int count, global const int* selected, global const float* rest, global const float* moved,
                   global const float* normals, float4 camera, int2 size, global const float* target_points,
-                  global const float* target_normals, float max_distance, float least_cosine, int radius,
+                  global const float* target_normals, float max_distance, float least_cosine,
+                  float least_facing, int search_radius, int steps, int rim, int symmetric,
                   global float* data, global float* confidence) {
   const int i = get_global_id(0);
   if (i >= count) return;
+  const Limits limits = {max_distance, least_cosine, search_radius, steps, rim};
   const float3 p = vload3(selected[i], moved);
   const float3 normal = vload3(selected[i], normals);
-  int pixel = target_pixel(p, camera, size, target_points);
-  if (pixel >= 0 &&
-      !is_acceptable(p, normal, pixel, target_points, target_normals, max_distance, least_cosine))
-    pixel = -1;
-  if (pixel < 0 && radius > 0)
-    pixel = nearest_pixel(p, normal, radius, camera, size, target_points, target_normals, max_distance,
-                          least_cosine);
+  int pixel = -1;
+  if (is_facing(p, normal, least_facing))
+    pixel = matched_pixel(p, normal, limits, camera, size, target_points, target_normals);
+  float3 plane = pixel >= 0 ? load_finite(pixel, target_normals) : (float3)(0);
+  if (symmetric && dot(plane, plane) > 0) plane = mean_normal(plane, normal);
   vstore3(pixel >= 0 ? vload3(pixel, target_points) - vload3(i, rest) : (float3)(0), 2 * i, data);
-  vstore3(pixel >= 0 ? load_finite(pixel, target_normals) : (float3)(0), 2 * i + 1, data);
+  vstore3(plane, 2 * i + 1, data);
   confidence[i] = pixel >= 0 ? 1 : 0;
 }
 
@@ -104,41 +190,43 @@ kernel void find_in_force(int count, global const float* confidence, global int*
   *found = i < count;
 }
 
-// Distance of each point to the target point at its pixel where that is acceptable, else -1.
+// Distance of each point to the target point at its pixel where it may be seen and that is acceptable, else
+// -1.
 kernel void measure(int count, global const float* moved, global const float* normals, float4 camera,
                     int2 size, global const float* target_points, global const float* target_normals,
-                    float max_distance, float least_cosine, global float* distances) {
+                    float max_distance, float least_cosine, float least_facing, global float* distances) {
   const int i = get_global_id(0);
   if (i >= count) return;
-  const float3 p = vload3(i, moved);
+  const float3 p = vload3(i, moved), normal = vload3(i, normals);
   const int pixel = target_pixel(p, camera, size, target_points);
-  const int is_accepted = pixel >= 0 && is_acceptable(p, vload3(i, normals), pixel, target_points,
-                                                      target_normals, max_distance, least_cosine);
+  const int is_accepted =
+      pixel >= 0 && is_facing(p, normal, least_facing) &&
+      is_acceptable(p, normal, pixel, target_points, target_normals, max_distance, least_cosine);
   distances[i] = is_accepted ? distance(p, vload3(pixel, target_points)) : -1;
 }
 
 // Per work-item of CHUNK points, in order: the sum of the residuals that are known, how many those are, how
-// many points have one or project onto a target point, and how many points are lost: not finite, or so far
-// away that squares are not.
+// many points have one or project onto a target point, how many points are lost (not finite, or so far away
+// that squares are not), and the sum of the squares of all where one that is not known, or longer, is `cut`.
 kernel void sum_residuals(int count, global const float* moved, float4 camera, int2 size,
-                          global const float* target_points, global const float* residual,
-                          global float4* partials) {
+                          global const float* target_points, global const float* residual, float cut,
+                          global float8* partials) {
   const int first = get_global_id(0) * CHUNK;
   if (first >= count) return;
-  float4 sum = 0;
+  float8 sum = 0;
   for (int i = first; i < min(first + CHUNK, count); ++i) {
     const float3 p = vload3(i, moved);
     if (residual[i] >= 0)
-      sum += (float4)(residual[i], 1, 1, 0);
-    else if (target_pixel(p, camera, size, target_points) >= 0)
-      sum.z += 1;
-    if (!all(fabs(p) < FARTHEST)) sum.w += 1;
+      sum += (float8)(residual[i], 1, 1, 0, fmin(residual[i] * residual[i], cut * cut), 0, 0, 0);
+    else
+      sum += (float8)(0, 0, target_pixel(p, camera, size, target_points) >= 0, 0, cut * cut, 0, 0, 0);
+    if (!all(fabs(p) < FARTHEST)) sum.s3 += 1;
   }
   partials[get_global_id(0)] = sum;
 }
 
-kernel void total_residual(int count, global const float4* partials, global float4* total) {
-  float4 sum = 0;
+kernel void total_residual(int count, global const float8* partials, global float8* total) {
+  float8 sum = 0;
   for (int i = 0; i < count; ++i) sum += partials[i];
   total[0] = sum;
 }

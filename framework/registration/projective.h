@@ -1,45 +1,59 @@
 #pragma once
 
+#include <numbers>
 #include <optional>
 
 #include "framework/registration/correspondence.h"
 
 namespace pliant {
 
-/// Matches a point with the target point at the pixel that it projects to [thesis 4.2] or, where that one is
-/// rejected, with the nearest acceptable one around it: what projects beside the target's outline is drawn
-/// in.
+/// Which match a point gets and which it is denied. A point or pixel without a normal is judged by distance
+/// alone.
+struct ProjectiveOptions {
+  double max_distance = 100;  ///< mm; a match further away is rejected
+  double max_angle =
+      75 * std::numbers::pi / 180;  ///< radians; a match whose normals differ by more is rejected
+  /// Radians between a point's normal and the way to the camera; a point turned further away cannot be seen
+  /// and has no match.
+  double max_view_angle = std::numbers::pi / 2;
+  int search_radius =
+      0;          ///< pixels in u and v in which another is looked for where a match is rejected; 0: none
+  int steps = 0;  ///< of the walk from the projected pixel to the closest point; 0: the projected one it is
+  int rim =
+      0;  ///< pixels; a match so near to where the target ends or jumps in depth is rejected; 0: none is
+  bool symmetric = false;  ///< planes half-way between both normals of a match, not those of the target
+};
+
+/// Matches a point with the target point at the pixel that it projects to [thesis 4.2], or goes on from
+/// there.
 class ProjectiveCorrespondence : public Correspondence {
  public:
-  /// A match further than `max_distance` (mm), or whose normals differ by more than `max_angle` (radians),
-  /// is rejected. A point or pixel without a normal is judged by distance alone. `search_radius`: pixels in u
-  /// and v within which another match is looked for; 0: none is.
-  ProjectiveCorrespondence(double max_distance, double max_angle, int search_radius);
+  explicit ProjectiveCorrespondence(const ProjectiveOptions& options);
 
   void match(Device& device, const PointSet& moved, const Array<int>& selected, const Target& target,
              Constraints& constraints) const override;
-
-  /// Of matches at the pixel that a point projects to alone: looking around for every point would cost more
-  /// than the registration.
   void measure(Device& device, const PointSet& moved, const Target& target,
                Array<float>& distances) const override;
 
-  /// Plain C++ reference of `measure`.
-  void measure_reference(const PointSet& moved, const Target& target, std::vector<float>& distances) const;
-
-  /// Plain C++ reference of `match`.
+  /// Plain C++ references.
   void match_reference(const PointSet& moved, const Array<int>& selected, const Target& target,
                        Constraints& constraints) const;
+  void measure_reference(const PointSet& moved, const Target& target, std::vector<float>& distances) const;
 
  private:
-  std::optional<std::size_t> match_point(const Target& target, const Eigen::Vector3f& point,
-                                         const Eigen::Vector3f& normal) const;
+  using Pixel = std::optional<std::size_t>;
+  Pixel match_point(const Target& target, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
+  std::size_t walk(const Target& target, const Eigen::Vector3f& point, std::size_t pixel) const;
+  Pixel search(const Target& target, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
+  bool is_facing(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
+  bool is_rim(const Target& target, std::size_t pixel) const;
   bool accepts(const Target& target, std::size_t pixel, const Eigen::Vector3f& point,
                const Eigen::Vector3f& normal) const;
 
+  ProjectiveOptions options_;
   float max_distance_;
   float least_cosine_;
-  int search_radius_;
+  float least_facing_;
 };
 
 }  // namespace pliant

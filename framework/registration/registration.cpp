@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -30,6 +31,7 @@ struct Skeleton {
   Array<float> node_points;  ///< the positions again, for the device
   Influences influences;     ///< of every point of the source
   std::vector<Edge> edges;
+  std::vector<GraphCell> cells;  ///< of the nodes, where they have some
 };
 
 /// Constraints and the problem that they and a skeleton make: what each adaptation makes anew.
@@ -82,7 +84,7 @@ bool applies(const Method& method, const Energy& energy) {
 
 std::vector<Term> make_terms(Device& device, const Method& method, const Scene& scene,
                              const std::vector<Eigen::Vector3f>& node_positions,
-                             const std::shared_ptr<Constraints>& surface, int stage) {
+                             const std::shared_ptr<Constraints>& surface) {
   std::shared_ptr<Constraints> features;
   if (uses_features(method)) features = make_feature_constraints(device, method, scene, node_positions);
   std::vector<Term> terms;
@@ -90,16 +92,18 @@ std::vector<Term> make_terms(Device& device, const Method& method, const Scene& 
     if (!applies(method, energy)) continue;
     std::shared_ptr<Constraints> constraints;
     if (energy.stencil == Stencil::per_constraint) constraints = energy.uses_features() ? features : surface;
-    terms.push_back({method.relaxation.relaxed(energy, stage), std::move(constraints)});
+    terms.push_back({energy, std::move(constraints)});
   }
   return terms;
 }
 
 Skeleton make_skeleton(const Scene& scene, const Method& method, Device& device,
-                       const std::vector<int>& nodes, StageTimes& times) {
+                       const NodeSelection& selection, StageTimes& times) {
+  const std::vector<int>& nodes = selection.points();
   check_selection(scene, "node of the graph", nodes);
   Skeleton skeleton;
   skeleton.nodes = nodes;
+  skeleton.cells = selection.cells();
   skeleton.positions = pick(scene.aligned.points, nodes);
   skeleton.node_points = flatten(skeleton.positions);
   skeleton.influences =
@@ -111,18 +115,19 @@ Skeleton make_skeleton(const Scene& scene, const Method& method, Device& device,
 }
 
 Model make_model(const Scene& scene, const Method& method, Device& device, const Skeleton& skeleton,
-                 const PointSelection& selection, int stage) {
+                 const PointSelection& selection) {
   const std::vector<int>& samples = selection.points();
   check_selection(scene, "constraint", samples);
   Array<int> selected(samples);
   auto constraints = make_constraints(pick(scene.aligned.points, samples),
                                       pick_influences(device, skeleton.influences, selected));
-  auto problem =
-      std::make_unique<Problem>(DeformationGraph{skeleton.positions, skeleton.edges},
-                                make_terms(device, method, scene, skeleton.positions, constraints, stage),
-                                method.length_unit, *method.transform);
+  auto problem = std::make_unique<Problem>(DeformationGraph{skeleton.positions, skeleton.edges},
+                                           make_terms(device, method, scene, skeleton.positions, constraints),
+                                           method.length_unit, *method.transform);
   return {std::move(selected), Array<float>(selection.weights()), std::move(constraints), std::move(problem)};
 }
+
+constexpr double least_matched_share = 0.5;  ///< with less the result comes with a warning
 
 /// Room for a deformed set of points.
 PointSet unwritten(const PointSet& rest) {
@@ -140,14 +145,15 @@ class Registration {
                      [&] { return method.graph->select_nodes(device, scene_.aligned, pair.camera); })),
         samples_(timed(times_, "acs",
                        [&] { return method.sampler->select(device, scene_.aligned, pair.camera); })),
-        skeleton_(make_skeleton(scene_, method, device, nodes_->points(), times_)),
+        skeleton_(std::make_shared<Skeleton>(make_skeleton(scene_, method, device, *nodes_, times_))),
         model_(make_new_model()),
         moved_(unwritten(scene_.rest)),
-        meter_(device, *method.correspondence, scene_.target, scene_.aligned.size()) {
+        meter_(device, *method.correspondence, scene_.target, scene_.aligned.size(), method.stopping.cut) {
     update_source();
   }
 
   void match() {
+    set_weights();
     method_.correspondence->match(device_, moved_, model_.selected, scene_.target, *model_.constraints);
     if (!model_.weights.empty()) weigh(device_, model_.weights, *model_.constraints);
   }
@@ -161,6 +167,8 @@ class Registration {
       report(progress);
     }
     collect_summaries();
+    if (!is_after_schedule(history_.size() - 1)) best_ = best_of_all_;
+    deform_best();
   }
 
   RegistrationResult take_result();
@@ -187,16 +195,66 @@ class Registration {
   }
 
   void update_source() {
-    warp(device_, scene_.rest, skeleton_.influences, skeleton_.node_points, model_.problem->unknowns(),
+    warp(device_, scene_.rest, skeleton_->influences, skeleton_->node_points, model_.problem->unknowns(),
          moved_);
+  }
+
+  /// Where an iteration led.
+  struct State {
+    std::size_t iteration = 0;
+    std::shared_ptr<const Skeleton> skeleton;
+    Array<float> unknowns;
+  };
+
+  /// Keeps what was measured, and where if it is the best so far: later iterations may do worse, and adapting
+  /// may lead astray. Those of the schedule do not have the weights yet that were asked for: they count only
+  /// when nothing comes after it.
+  void record(const Residual& residual) {
+    const std::size_t iteration = history_.size();
+    history_.push_back({residual.mean, residual.robust, residual.matched});
+    const auto is_better = [&](const State& best) {
+      return iteration == 0 || residual.robust < history_[best.iteration].robust;
+    };
+    const State here{iteration, skeleton_, model_.problem->unknowns()};
+    if (is_better(best_of_all_)) best_of_all_ = here;
+    if ((iteration == 0 || is_after_schedule(iteration)) && is_better(best_)) best_ = here;
+  }
+
+  bool is_after_schedule(std::size_t iteration) const {
+    return iteration > static_cast<std::size_t>(method_.schedule.iterations);
+  }
+
+  void deform(const PointSet& rest) {
+    warp(device_, rest, best_.skeleton->influences, best_.skeleton->node_points, best_.unknowns, moved_);
+  }
+
+  /// Puts the source where the best iteration led, and finds what is matched there.
+  void deform_best() {
+    deform(scene_.rest);
+    matched_ = find_matched();
+    if (scene_.unfiltered) deform_unfiltered();
+  }
+
+  std::vector<std::uint8_t> find_matched() {
+    std::vector<int> all(scene_.aligned.size());
+    std::iota(all.begin(), all.end(), 0);
+    Constraints constraints;
+    constraints.points = scene_.rest.points;
+    constraints.data = Array<float>(6 * all.size());
+    constraints.confidence = Array<float>(all.size());
+    method_.correspondence->match(device_, moved_, Array<int>(std::move(all)), scene_.target, constraints);
+    const auto& confidence = constraints.confidence.host();
+    std::vector<std::uint8_t> matched(confidence.size());
+    std::transform(confidence.begin(), confidence.end(), matched.begin(),
+                   [](float value) { return static_cast<std::uint8_t>(value > 0); });
+    return matched;
   }
 
   /// Moves each point that was given as the filtered one in its place was moved. The transforms are not
   /// applied to it: nothing determines what they do across the surface they were fitted to, and noise would
   /// be stretched by that.
   void deform_unfiltered() {
-    const PointSet given{scene_.rest.points, scene_.unfiltered->normals};
-    warp(device_, given, skeleton_.influences, skeleton_.node_points, model_.problem->unknowns(), moved_);
+    deform({scene_.rest.points, scene_.unfiltered->normals});
     const auto& filtered = scene_.rest.points.host();
     const auto& unfiltered = scene_.unfiltered->points.host();
     auto& moved = moved_.points.write_host();
@@ -214,12 +272,11 @@ class Registration {
           fmt::format("{}: no point of the source projects onto a point of the target; an initial "
                       "alignment may help",
                       scene_.pair.name));
-    residuals_ = {residual.mean};
+    record(residual);
   }
 
-  /// Matches, minimises, updates the source and measures. What cannot be gone on with is taken back.
+  /// Matches, minimises, updates the source and measures.
   void iterate() {
-    const Array<float> before = model_.problem->unknowns();
     try {
       match();
       solver_->solve();
@@ -228,12 +285,7 @@ class Registration {
     } catch (const NumericalError& error) {
       end("failed", error.what());
     }
-    if (termination_.empty()) {
-      ++iterations_;
-      return;
-    }
-    model_.problem->unknowns() = before;
-    update_source();
+    if (termination_.empty()) ++iterations_;
   }
 
   /// Ends the loop when what an iteration came to is no result.
@@ -248,7 +300,7 @@ class Registration {
     else if (residual.matched == 0)
       end("failed", "no point of the source has a match any more that is not rejected");
     else
-      residuals_.push_back(residual.mean);
+      record(residual);
   }
 
   /// Whether any energy asks a point to go anywhere.
@@ -263,7 +315,7 @@ class Registration {
   /// Ends the loop, or adapts graph and constraints to the residual and lets it go on.
   void decide() {
     const StoppingRule& rule = method_.stopping;
-    if (residuals_.back() < rule.residual)
+    if (history_.back().residual_mean < rule.residual)
       termination_ = "residual";
     else if (iterations_ >= rule.max_iterations)
       termination_ = "max_iterations";
@@ -274,41 +326,31 @@ class Registration {
   /// Whether the residual stays, or has come down to where it was before the last adaptation: constraints
   /// that are taken away where the surface fits, and given back once it no longer does, may swing for ever.
   bool is_stuck() const {
-    const auto last = residuals_.rbegin();
-    const auto is_near = [&](double earlier) {
-      return std::abs(earlier - *last) < method_.stopping.min_progress * earlier;
+    const auto last = history_.rbegin();
+    const double now = last->residual_mean;
+    const auto is_near = [&](const RegistrationResult::Step& earlier) {
+      return std::abs(earlier.residual_mean - now) < method_.stopping.min_progress * earlier.residual_mean;
     };
-    return is_near(last[1]) || (residuals_.size() > 2 && *last < last[1] && is_near(last[2]));
+    return is_near(last[1]) || (history_.size() > 2 && now < last[1].residual_mean && is_near(last[2]));
   }
 
-  /// Weighs the terms as they count in the present stage.
+  /// Weighs the terms as they count at this point of the schedule.
   void set_weights() {
     std::size_t term = 0;
     for (const Energy& energy : method_.energies) {
       if (!applies(method_, energy)) continue;
-      const Energy relaxed = method_.relaxation.relaxed(energy, stage_);
-      model_.problem->set_weight(term, relaxed.weight);
-      model_.problem->set_loss_scale(term, relaxed.loss.scale);
+      const Energy now = energy.at(method_.schedule.remaining(iterations_));
+      model_.problem->set_weight(term, now.weight);
+      model_.problem->set_loss_scale(term, now.loss.scale);
       ++term;
     }
-  }
-
-  /// Goes to the next stage of less stiffness when this one is over; whether it does.
-  bool relax() {
-    const Relaxation& relaxation = method_.relaxation;
-    const bool is_over = is_stuck() || iterations_ - stage_began_ >= relaxation.iterations;
-    if (stage_ + 1 >= relaxation.stages || !is_over) return false;
-    ++stage_;
-    stage_began_ = iterations_;
-    set_weights();
-    return true;
   }
 
   /// Only a softer or a first new graph promises more where nothing was gained: adaptive constraints seldom
   /// stay the same, and a graph that has grown without gaining would grow on.
   void adapt() {
     const bool was_stuck = is_stuck();
-    const bool is_softer = relax();
+    const bool is_softer = method_.schedule.remaining(iterations_ - 1) > 0;
     const bool may_grow = is_softer || !was_stuck || !has_grown_;
     const bool has_new_nodes = may_grow && adapt_nodes();
     if (!is_softer && !has_new_nodes && was_stuck)
@@ -338,16 +380,16 @@ class Registration {
     if (termination_.empty()) rebuild();
   }
 
-  Model make_new_model() { return make_model(scene_, method_, device_, skeleton_, *samples_, stage_); }
+  Model make_new_model() { return make_model(scene_, method_, device_, *skeleton_, *samples_); }
 
   /// Makes the model of the graph and constraints anew; the deformation so far is kept.
   void rebuild() {
     Array<float> start = model_.problem->unknowns();
-    if (nodes_->points() != skeleton_.nodes) {
-      Skeleton next = make_skeleton(scene_, method_, device_, nodes_->points(), times_);
-      start = carry_over(device_, {skeleton_.nodes, skeleton_.influences, start}, next.nodes,
+    if (nodes_->points() != skeleton_->nodes) {
+      Skeleton next = make_skeleton(scene_, method_, device_, *nodes_, times_);
+      start = carry_over(device_, {skeleton_->nodes, skeleton_->influences, start}, next.nodes,
                          scene_.aligned.points);
-      skeleton_ = std::move(next);
+      skeleton_ = std::make_shared<Skeleton>(std::move(next));
     }
     model_ = make_new_model();
     model_.problem->unknowns() = std::move(start);
@@ -359,7 +401,7 @@ class Registration {
     const double done =
         termination_.empty() ? static_cast<double>(iterations_) / method_.stopping.max_iterations : 1.0;
     progress({scene_.pair.name, done,
-              fmt::format("iteration {}: residual {:.3f} mm", iterations_, residuals_.back())});
+              fmt::format("iteration {}: residual {:.3f} mm", iterations_, history_.back().residual_mean)});
   }
 
   StageTimes times_;
@@ -368,15 +410,16 @@ class Registration {
   Scene scene_;
   std::unique_ptr<NodeSelection> nodes_;
   std::unique_ptr<PointSelection> samples_;
-  int stage_ = 0;  ///< of relaxation
-  int stage_began_ = 0;
   bool has_grown_ = false;  ///< whether the graph is another than at first
-  Skeleton skeleton_;
+  std::shared_ptr<const Skeleton> skeleton_;
   Model model_;
   PointSet moved_;
   ResidualMeter meter_;
   std::unique_ptr<BoundSolver> solver_;
-  std::vector<double> residuals_;  ///< mm, at the start and after each iteration
+  std::vector<RegistrationResult::Step> history_;
+  State best_;         ///< of the alignment and the iterations after the schedule
+  State best_of_all_;  ///< of these and those of the schedule
+  std::vector<std::uint8_t> matched_;
   int iterations_ = 0;
   std::string termination_;  ///< empty while the loop goes on
   std::string reason_;
@@ -403,20 +446,28 @@ bool is_waited_for(const std::string& stage) { return stage == "ans" || stage ==
 
 RegistrationResult Registration::take_result() {
   RegistrationResult result;
-  if (scene_.unfiltered) deform_unfiltered();
   result.points = unflatten(moved_.points);
   result.normals = unflatten(moved_.normals);
-  result.node_positions = skeleton_.positions;
-  result.graph_cells = nodes_->cells();
+  result.matched = std::move(matched_);
+  result.node_positions = best_.skeleton->positions;
+  result.graph_cells = best_.skeleton->cells;
   result.counts.source_points = static_cast<int>(scene_.source.size());
-  result.counts.nodes = model_.problem->node_count();
-  result.counts.edges = static_cast<int>(model_.problem->graph().edges.size());
+  result.counts.matched_points =
+      static_cast<int>(std::count(result.matched.begin(), result.matched.end(), std::uint8_t{1}));
+  result.counts.nodes = static_cast<int>(best_.skeleton->nodes.size());
+  result.counts.edges = static_cast<int>(best_.skeleton->edges.size());
   result.counts.constraints = static_cast<int>(model_.selected.size());
-  result.counts.unknowns = model_.problem->unknown_count();
+  result.counts.unknowns = method_.transform->unknowns * result.counts.nodes;
   result.counts.outer_iterations = iterations_;
+  result.history = std::move(history_);
+  result.returned_iteration = static_cast<int>(best_.iteration);
   result.termination = termination_;
   result.reason = reason_;
   result.warnings = warnings_of(method_, result.counts);
+  if (result.counts.matched_points < least_matched_share * result.counts.source_points)
+    result.warnings.push_back(fmt::format(
+        "only {} of {} points of the source have a match at the end; the others went with their neighbours",
+        result.counts.matched_points, result.counts.source_points));
   result.time_ms = times_;
   for (const auto& [stage, time] : device_.take_stage_times())
     if (!is_waited_for(stage)) result.time_ms[stage] += time;

@@ -1,6 +1,8 @@
 #include "framework/registration/residual.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "framework/registration/projection.h"
 
@@ -12,14 +14,15 @@ constexpr std::size_t chunk = 256;  // CHUNK in projection.cl
 }  // namespace
 
 ResidualMeter::ResidualMeter(Device& device, const Correspondence& correspondence, const Target& target,
-                             std::size_t point_count)
+                             std::size_t point_count, double cut)
     : device_(&device),
       correspondence_(&correspondence),
       target_(&target),
       chunks_((point_count + chunk - 1) / chunk),
+      cut_(static_cast<float>(cut)),
       per_point_(point_count),
-      partials_(device.allocate(chunks_ * sizeof(cl_float4))),
-      total_(device.allocate(sizeof(cl_float4))) {}
+      partials_(device.allocate(chunks_ * sizeof(cl_float8))),
+      total_(device.allocate(sizeof(cl_float8))) {}
 
 Residual ResidualMeter::measure(const PointSet& moved) {
   auto sum = projection_kernel(*device_, "sum_residuals");
@@ -27,21 +30,27 @@ Residual ResidualMeter::measure(const PointSet& moved) {
   correspondence_->measure(*device_, moved, *target_, per_point_);
   device_->run("residual", sum, chunks_, 1, static_cast<cl_int>(per_point_.size()),
                moved.points.device(*device_), pinhole(target_->camera), image_size(target_->camera),
-               target_->points.device(*device_), per_point_.device(*device_), partials_);
+               target_->points.device(*device_), per_point_.device(*device_), cut_, partials_);
   device_->run("residual", total, 1, 1, static_cast<cl_int>(chunks_), partials_, total_);
-  std::array<float, 4> record{};
+  std::array<float, 8> record{};
   device_->read(total_, record.data(), sizeof(record));
-  return {record[1] > 0 ? static_cast<double>(record[0]) / static_cast<double>(record[1]) : 0.0,
-          static_cast<int>(record[1]), static_cast<int>(record[2]), static_cast<int>(record[3])};
+  const auto mean = [](float sum, auto count) {
+    return count > 0 ? double{sum} / static_cast<double>(count) : 0.0;
+  };
+  return {mean(record[0], record[1]), static_cast<int>(record[1]), static_cast<int>(record[2]),
+          static_cast<int>(record[3]), std::sqrt(mean(record[4], per_point_.size()))};
 }
 
 Residual sum_residuals_reference(const Target& target, const Array<float>& moved,
-                                 const std::vector<float>& per_point) {
+                                 const std::vector<float>& per_point, double cut) {
   Residual residual;
   double sum = 0;
+  double robust = 0;
   for (std::size_t i = 0; i < per_point.size(); ++i) {
     const Eigen::Map<const Eigen::Vector3f> point(moved.host().data() + 3 * i);
     if (!(point.array().abs() < farthest_depth).all()) ++residual.lost;
+    robust +=
+        per_point[i] >= 0 ? std::min<double>(double{per_point[i]} * per_point[i], cut * cut) : cut * cut;
     if (per_point[i] >= 0) {
       sum += per_point[i];
       ++residual.matched;
@@ -49,6 +58,7 @@ Residual sum_residuals_reference(const Target& target, const Array<float>& moved
     if (per_point[i] >= 0 || target_pixel_reference(target, point)) ++residual.landed;
   }
   if (residual.matched > 0) residual.mean = sum / residual.matched;
+  if (!per_point.empty()) residual.robust = std::sqrt(robust / static_cast<double>(per_point.size()));
   return residual;
 }
 

@@ -10,13 +10,17 @@ struct Residual {
   int matched = 0;  ///< how many those are
   int landed = 0;   ///< these, and those that project onto a target point which is rejected
   int lost = 0;     ///< points that are not finite, or further away than farthest_depth
+  /// mm; root mean square over all points, where one without such a match or with a longer residual counts as
+  /// the meter's cut: what rises when matches are lost, and heeds no outlier more than that.
+  double robust = 0;
 };
 
 /// Measures residuals on the device; reading one back waits for everything enqueued so far.
 class ResidualMeter {
  public:
+  /// `cut`: mm, of Residual::robust.
   ResidualMeter(Device& device, const Correspondence& correspondence, const Target& target,
-                std::size_t point_count);
+                std::size_t point_count, double cut);
   Residual measure(const PointSet& moved);
   /// What was measured last, point by point, in mm; -1 where a point has no match that is accepted.
   const Array<float>& per_point() const { return per_point_; }
@@ -26,6 +30,7 @@ class ResidualMeter {
   const Correspondence* correspondence_;
   const Target* target_;
   std::size_t chunks_;
+  float cut_;
   Array<float> per_point_;
   cl::Buffer partials_;
   cl::Buffer total_;
@@ -33,6 +38,6 @@ class ResidualMeter {
 
 /// Plain C++ reference of ResidualMeter::measure from what it has measured `per_point`.
 Residual sum_residuals_reference(const Target& target, const Array<float>& moved,
-                                 const std::vector<float>& per_point);
+                                 const std::vector<float>& per_point, double cut);
 
 }  // namespace pliant

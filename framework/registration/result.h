@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,15 @@ struct RegistrationResult {
   std::vector<Eigen::Vector3f> points;          ///< mm, after non-rigid registration
   std::vector<Eigen::Vector3f> normals;         ///< of `points`
   AlignmentResult alignment;
+  /// Per point: whether it has a match at the end. What has none (hidden, cut off, too far) went with its
+  /// neighbours.
+  std::vector<std::uint8_t> matched;
   std::vector<Eigen::Vector3f> node_positions;  ///< mm, nodes of the last graph on the aligned source
   std::vector<GraphCell> graph_cells;           ///< of the last graph; empty where it has none
 
   struct Counts {
     int source_points = 0;
+    int matched_points = 0;
     int nodes = 0;
     int edges = 0;
     int constraints = 0;
@@ -35,6 +40,15 @@ struct RegistrationResult {
     double final = 0;
     std::vector<double> per_iteration;  ///< at the end of each outer iteration
   } energy;
+
+  /// What was measured before the first and after each outer iteration.
+  struct Step {
+    double residual_mean = 0;  ///< mm, of the accepted matches
+    double robust = 0;         ///< mm, Residual::robust
+    int matched = 0;           ///< points that have an accepted match at their pixel
+  };
+  std::vector<Step> history;
+  int returned_iteration = 0;  ///< whose result this is: of those in `history` the one with least `robust`
 
   struct SolverRecord {
     std::string name;

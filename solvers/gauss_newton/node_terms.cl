@@ -1,12 +1,19 @@
 // One energy per node, for sixteen nodes at once: compiled after its equation.h over float16. TERM(x) names
-// the functions after the energy, ROWS is the length of its residual.
+// the functions after the term, ROWS is the length of its residual, ROBUST whether its loss is none.
+
+float16 TERM(squared)(const float16* r) {
+  float16 sum = 0;
+  for (int row = 0; row < ROWS; ++row) sum += r[row] * r[row];
+  return sum;
+}
 
 // Adds weight * J^T J to the packed lower triangle and weight * J^T r to the gradient, both in the order
 // 4 axis + c.
-void TERM(add)(const float16* u, float16 weight, float16* packed, float16* gradient) {
+void TERM(add)(const float16* u, float16 weight, float16 loss_scale, float16* packed, float16* gradient) {
   float16 r[ROWS], J[12 * ROWS];
   NAME_RESIDUAL(u, u, r);
   NAME_JACOBIAN(u, u, J);
+  weight *= LOSS_WEIGHT(TERM(squared)(r), loss_scale);
   int entry = 0;
   for (int m = 0; m < 12; ++m) {
     const int at_m = COLUMNWISE(m);
@@ -23,19 +30,22 @@ void TERM(add)(const float16* u, float16 weight, float16* packed, float16* gradi
 }
 
 // Energy at v less energy at u, without losing the digits of a small difference.
-float16 TERM(change)(const float16* u, const float16* v, float16 weight) {
+float16 TERM(change)(const float16* u, const float16* v, float16 weight, float16 loss_scale) {
   float16 before[ROWS], after[ROWS];
   NAME_RESIDUAL(u, u, before);
   NAME_RESIDUAL(v, v, after);
-  float16 sum = 0;
-  for (int row = 0; row < ROWS; ++row) sum += (after[row] - before[row]) * (after[row] + before[row]);
-  return weight * sum;
+  float16 gain = 0;
+  for (int row = 0; row < ROWS; ++row) gain += (after[row] - before[row]) * (after[row] + before[row]);
+#if ROBUST
+  const float16 squared = TERM(squared)(before);
+  gain = select(LOSS_VALUE(fmax(squared + gain, (float16)0), loss_scale) - LOSS_VALUE(squared, loss_scale),
+                gain * LOSS_WEIGHT(squared + 0.5f * gain, loss_scale), fabs(gain) < 0.01f * squared);
+#endif
+  return weight * gain;
 }
 
-float16 TERM(energy)(const float16* u, float16 weight) {
+float16 TERM(energy)(const float16* u, float16 weight, float16 loss_scale) {
   float16 r[ROWS];
   NAME_RESIDUAL(u, u, r);
-  float16 sum = 0;
-  for (int row = 0; row < ROWS; ++row) sum += r[row] * r[row];
-  return weight * sum;
+  return weight * LOSS_VALUE(TERM(squared)(r), loss_scale);
 }

@@ -45,21 +45,26 @@ std::string rows_source(const Energy& energy) {
 /// The functions of every term per node, and three that call them all.
 std::string node_terms_source(const std::vector<const Term*>& terms) {
   // From the order 4 axis + c to that of the equations.
-  std::string text = "#define COLUMNWISE(m) (3 * ((m) % 4) + (m) / 4)\n";
+  std::string text = "#define COLUMNWISE(m) (3 * ((m) % 4) + (m) / 4)\n" + losses_source("float16");
   std::string add, change, energy;
   for (std::size_t i = 0; i < terms.size(); ++i) {
-    const auto& name = terms[i]->energy.equation.name;
+    const Energy& term = terms[i]->energy;
+    const auto& name = term.equation.name;
     if (std::none_of(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(i),
                      [&](const Term* other) { return other->energy.equation.name == name; }))
-      text += fmt::format(
-          "{0}#undef NAME_RESIDUAL\n#undef NAME_JACOBIAN\n#undef TERM\n#undef ROWS\n"
-          "#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define TERM(x) x##_{1}\n"
-          "#define ROWS {2}\n{3}",
-          equation_source(terms[i]->energy, "float16"), name, terms[i]->energy.residuals,
-          embedded::solvers_gauss_newton_node_terms_cl);
-    add += fmt::format("  add_{}(u, inside * weights[{}], packed, gradient);\n", name, i);
-    change += fmt::format("  change += change_{}(u, v, inside * weights[{}]);\n", name, i);
-    energy += fmt::format("  energy += energy_{}(u, inside * weights[{}]);\n", name, i);
+      text += equation_source(term, "float16");
+    text += fmt::format(
+        "#undef NAME_RESIDUAL\n#undef NAME_JACOBIAN\n#undef TERM\n#undef ROWS\n#undef ROBUST\n"
+        "#define NAME_RESIDUAL {0}_residual\n#define NAME_JACOBIAN {0}_jacobian\n#define TERM(x) x##_{1}\n"
+        "#define ROWS {2}\n#define ROBUST {3}\n{4}{5}",
+        name, i, term.residuals, static_cast<int>(term.loss.is_robust()), loss_choice_source(term.loss),
+        embedded::solvers_gauss_newton_node_terms_cl);
+    add += fmt::format("  add_{}(u, inside * weights[{}], weights[{}], packed, gradient);\n", i, 2 * i,
+                       2 * i + 1);
+    change +=
+        fmt::format("  change += change_{}(u, v, inside * weights[{}], weights[{}]);\n", i, 2 * i, 2 * i + 1);
+    energy +=
+        fmt::format("  energy += energy_{}(u, inside * weights[{}], weights[{}]);\n", i, 2 * i, 2 * i + 1);
   }
   return text + fmt::format(
                     "float16 add_node_terms(const float16* u, float16 inside, global const float* weights,\n"
@@ -272,9 +277,11 @@ class StructuredCourse : public Course {
                           fmt::format("-DK={}", term.kind->incidences.per_instance));
   }
 
+  /// The weight of each term per node and the scale of its loss.
   void upload_node_weights() {
     std::vector<float> weights;
-    for (const auto* term : node_terms_) weights.push_back(weight_of(*term));
+    for (const auto* term : node_terms_)
+      weights.insert(weights.end(), {weight_of(*term), static_cast<float>(term->energy.loss.scale)});
     node_weights_ = device_.upload(weights);
   }
 

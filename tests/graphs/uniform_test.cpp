@@ -55,12 +55,9 @@ TEST_F(UniformGraphTest, NeverAdaptsAndHasNoCells) {
   EXPECT_TRUE(nodes->cells().empty());
 }
 
-TEST(UniformGraph, SpacingAndNumberTogetherAreAnError) {
-  EXPECT_THAT(
-      [] {
-        make_uniform({{"spacing", std::int64_t{9}}, {"nodes", std::int64_t{64}}});
-      },
-      testing::ThrowsMessage<ConfigError>(testing::HasSubstr("both `spacing` and `nodes`")));
+TEST_F(UniformGraphTest, ASpacingSaysMoreThanANumber) {
+  EXPECT_EQ(select({{"spacing", std::int64_t{9}}, {"nodes", std::int64_t{64}}})->points(),
+            select({{"spacing", std::int64_t{9}}})->points());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -47,17 +48,22 @@ PointSet make_moved(std::mt19937& random, std::size_t count) {
   return {Array<float>(std::move(points)), Array<float>(std::move(normals))};
 }
 
-struct Limits {
-  double max_distance;
-  double max_angle;
-  int search_radius;
-};
-
-void PrintTo(const Limits& limits, std::ostream* out) {
-  *out << limits.max_distance << " mm, " << limits.max_angle << " rad, " << limits.search_radius << " pixels";
+void PrintTo(const ProjectiveOptions& options, std::ostream* out) {
+  *out << options.max_distance << " mm, " << options.max_angle << " rad, facing " << options.max_view_angle
+       << " rad, " << options.search_radius << " pixels around, " << options.steps << " steps, rim "
+       << options.rim << (options.symmetric ? ", symmetric" : "");
 }
 
-class Projective : public ::testing::TestWithParam<Limits> {};
+ProjectiveOptions limits(double max_distance, double max_angle, int search_radius = 0) {
+  ProjectiveOptions options;
+  options.max_distance = max_distance;
+  options.max_angle = max_angle;
+  options.max_view_angle = std::numbers::pi;
+  options.search_radius = search_radius;
+  return options;
+}
+
+class Projective : public ::testing::TestWithParam<ProjectiveOptions> {};
 
 TEST_P(Projective, TheDeviceAgreesWithTheReference) {
   Device device;
@@ -80,8 +86,7 @@ TEST_P(Projective, TheDeviceAgreesWithTheReference) {
   Constraints constraints = empty();
   Constraints expected = empty();
   const Array<int> chosen(selected);
-  const ProjectiveCorrespondence projective(GetParam().max_distance, GetParam().max_angle,
-                                            GetParam().search_radius);
+  const ProjectiveCorrespondence projective(GetParam());
   projective.match(device, moved, chosen, target, constraints);
   projective.match_reference(moved, chosen, target, expected);
   int matched = 0;
@@ -95,9 +100,23 @@ TEST_P(Projective, TheDeviceAgreesWithTheReference) {
   EXPECT_LT(matched, 440);
 }
 
-INSTANTIATE_TEST_SUITE_P(Limits, Projective,
-                         ::testing::Values(Limits{15, 3.2, 0}, Limits{1000, 0.7, 0}, Limits{30, 0.9, 0},
-                                           Limits{30, 0.9, 3}, Limits{60, 3.2, 12}));
+std::vector<ProjectiveOptions> kinds_of_options() {
+  std::vector<ProjectiveOptions> kinds{limits(15, 3.2), limits(1000, 0.7), limits(30, 0.9),
+                                       limits(30, 0.9, 3), limits(60, 3.2, 12)};
+  ProjectiveOptions closest = limits(30, 1.2);
+  closest.steps = 4;
+  kinds.push_back(closest);
+  closest.max_view_angle = 0.8;
+  closest.symmetric = true;
+  kinds.push_back(closest);
+  ProjectiveOptions careful = limits(100, 1.2);
+  careful.steps = 2;
+  careful.rim = 1;
+  kinds.push_back(careful);
+  return kinds;
+}
+
+INSTANTIATE_TEST_SUITE_P(Options, Projective, ::testing::ValuesIn(kinds_of_options()));
 
 TEST(ProjectiveMatch, LooksAroundOnlyWhereTheProjectedPixelIsRejected) {
   Device device;
@@ -113,27 +132,122 @@ TEST(ProjectiveMatch, LooksAroundOnlyWhereTheProjectedPixelIsRejected) {
   constraints.data = Array<float>(std::vector<float>(6));
   constraints.confidence = Array<float>(std::vector<float>(1));
   const Array<int> selected(std::vector<int>{0});
-  ProjectiveCorrespondence(50, 1, 3).match(device, moved, selected, target, constraints);
+  ProjectiveCorrespondence(limits(50, 1, 3)).match(device, moved, selected, target, constraints);
   EXPECT_EQ(constraints.confidence.host()[0], 0) << "beyond the radius";
-  ProjectiveCorrespondence(30, 1, 4).match(device, moved, selected, target, constraints);
+  ProjectiveCorrespondence(limits(30, 1, 4)).match(device, moved, selected, target, constraints);
   EXPECT_EQ(constraints.confidence.host()[0], 0) << "beyond the distance";
-  ProjectiveCorrespondence(50, 1, 4).match(device, moved, selected, target, constraints);
+  ProjectiveCorrespondence(limits(50, 1, 4)).match(device, moved, selected, target, constraints);
   EXPECT_EQ(constraints.confidence.host()[0], 1);
   EXPECT_NEAR(constraints.data.host()[0], 32, 1e-3);
 }
 
+/// A plane z = 400 + slope * x as the camera sees it, up to a column.
+Target make_slope(double slope, int columns = camera.width) {
+  SurfaceMap map{Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero()),
+                 Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero())};
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < columns; ++u) {
+      map.points(u, v) =
+          camera.unproject(u, v, 400 / (1 - slope * (u - camera.cx) / camera.fx)).cast<float>();
+      map.normals(u, v) = Eigen::Vector3d(slope, 0, -1).normalized().cast<float>();
+    }
+  return {camera, map};
+}
+
+struct Match {
+  bool is_found;
+  Eigen::Vector3f pull;
+  Eigen::Vector3f plane;
+};
+
+Match match_one(const ProjectiveOptions& options, const Target& target, const Eigen::Vector3d& point,
+                const Eigen::Vector3d& normal) {
+  Device device;
+  const auto array = [](const Eigen::Vector3d& v) {
+    const Eigen::Vector3f value = v.cast<float>();
+    return Array<float>(std::vector<float>(value.data(), value.data() + 3));
+  };
+  Constraints constraints;
+  constraints.points = array(point);
+  constraints.data = Array<float>(std::vector<float>(6));
+  constraints.confidence = Array<float>(std::vector<float>(1));
+  ProjectiveCorrespondence(options).match(device, {array(point), array(normal)},
+                                          Array<int>(std::vector<int>{0}), target, constraints);
+  const float* data = constraints.data.host().data();
+  return {constraints.confidence.host()[0] > 0, Eigen::Vector3f(data), Eigen::Vector3f(data + 3)};
+}
+
+const Eigen::Vector3d towards_camera(0, 0, -1);
+
+TEST(ClosestMatch, WalksToTheFootOfThePoint) {
+  const Target slope = make_slope(1);
+  const Eigen::Vector3d point(0, 0, 360);  // its foot is (20, 0, 380); on its own ray the plane is 40 mm away
+  ProjectiveOptions options = limits(100, 1.5);
+  EXPECT_NEAR(match_one(options, slope, point, towards_camera).pull.norm(), 40, 0.1);
+  options.steps = 4;
+  const Match closest = match_one(options, slope, point, towards_camera);
+  EXPECT_NEAR(closest.pull.norm(), std::sqrt(0.5) * 40, 1);
+  EXPECT_NEAR(closest.pull.x(), -20, 6);  // to half a pixel
+}
+
+TEST(Match, IsDeniedToAPointThatTurnedAway) {
+  const Target wall = make_slope(0);
+  const auto turned = [](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    return Eigen::Vector3d(std::sin(angle), 0, -std::cos(angle));
+  };
+  ProjectiveOptions options = limits(100, std::numbers::pi);
+  options.max_view_angle = 80 * std::numbers::pi / 180;
+  const Eigen::Vector3d point(0, 0, 395);
+  EXPECT_TRUE(match_one(options, wall, point, turned(79)).is_found);
+  EXPECT_FALSE(match_one(options, wall, point, turned(81)).is_found);
+  EXPECT_TRUE(match_one(options, wall, point, Eigen::Vector3d::Zero()).is_found) << "without a normal";
+}
+
+TEST(Match, IsDeniedNearWhereTheTargetEndsOrJumps) {
+  ProjectiveOptions options = limits(100, 1);
+  options.rim = 2;
+  const auto found_at = [&](const Target& target, int u) {
+    return match_one(options, target, camera.unproject(u, 15, 395), towards_camera).is_found;
+  };
+  const Target cut_off = make_slope(0, 30);
+  EXPECT_TRUE(found_at(cut_off, 27));
+  EXPECT_FALSE(found_at(cut_off, 28));
+  Target step = make_slope(0);
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 30; u < camera.width; ++u)
+      step.points.write_host()[static_cast<std::size_t>(3 * (v * camera.width + u) + 2)] +=
+          170;  // 2 pixels: 160
+  EXPECT_TRUE(found_at(step, 27));
+  EXPECT_FALSE(found_at(step, 28));
+  EXPECT_FALSE(found_at(make_slope(0), 1)) << "beside the image nothing is seen either";
+}
+
+TEST(Match, GivesPlanesHalfWayBetweenTheNormals) {
+  ProjectiveOptions options = limits(100, 1.5);
+  const Eigen::Vector3d point(0, 0, 395), leaning = Eigen::Vector3d(1, 0, -1).normalized();
+  EXPECT_NEAR(match_one(options, make_slope(0), point, leaning).plane.x(), 0, 1e-6);
+  options.symmetric = true;
+  const Match match = match_one(options, make_slope(0), point, leaning);
+  EXPECT_NEAR(match.plane.norm(), 1, 1e-6);
+  EXPECT_NEAR(std::atan2(match.plane.x(), -match.plane.z()), std::numbers::pi / 8, 1e-5);
+}
+
+constexpr double cut = 12;  // mm
+
 /// Device and reference measure alike; gives what was measured.
 Residual expect_agreement(Device& device, const ProjectiveCorrespondence& projective, const Target& target,
                           const PointSet& moved) {
-  ResidualMeter meter(device, projective, target, moved.points.size() / 3);
+  ResidualMeter meter(device, projective, target, moved.points.size() / 3, cut);
   std::vector<float> per_point;
   projective.measure_reference(moved, target, per_point);
-  const Residual expected = sum_residuals_reference(target, moved.points, per_point);
+  const Residual expected = sum_residuals_reference(target, moved.points, per_point, cut);
   const Residual measured = meter.measure(moved);
   EXPECT_EQ(measured.matched, expected.matched);
   EXPECT_EQ(measured.landed, expected.landed);
   EXPECT_EQ(measured.lost, expected.lost);
   EXPECT_NEAR(measured.mean, expected.mean, 1e-4 * expected.mean);
+  EXPECT_NEAR(measured.robust, expected.robust, 1e-4 * expected.robust);
   for (std::size_t i = 0; i < per_point.size(); ++i)
     EXPECT_NEAR(meter.per_point().host()[i], per_point[i], 1e-3) << "point " << i;
   return measured;
@@ -144,8 +258,7 @@ TEST_P(Projective, MeasuresLikeItsReference) {
   std::mt19937 random(5);
   const Target target = make_target(random);
   const PointSet moved = make_moved(random, 1111);
-  const Residual residual = expect_agreement(
-      device, {GetParam().max_distance, GetParam().max_angle, GetParam().search_radius}, target, moved);
+  const Residual residual = expect_agreement(device, ProjectiveCorrespondence(GetParam()), target, moved);
   EXPECT_GT(residual.landed, 300);
   EXPECT_GT(residual.matched, 50);
   EXPECT_LT(residual.matched, residual.landed);
@@ -157,7 +270,7 @@ TEST(ResidualMeter, KnowsNothingWhereTheMatchIsRejected) {
   std::mt19937 random(5);
   const Target target = make_target(random);
   const PointSet moved = make_moved(random, 800);
-  const ProjectiveCorrespondence projective(30, 0.9, 0);
+  const ProjectiveCorrespondence projective(limits(30, 0.9));
   std::vector<int> all(800);
   std::iota(all.begin(), all.end(), 0);
   Constraints constraints;
@@ -165,7 +278,7 @@ TEST(ResidualMeter, KnowsNothingWhereTheMatchIsRejected) {
   constraints.data = Array<float>(std::vector<float>(6 * 800));
   constraints.confidence = Array<float>(std::vector<float>(800));
   projective.match(device, moved, Array<int>(all), target, constraints);
-  ResidualMeter meter(device, projective, target, 800);
+  ResidualMeter meter(device, projective, target, 800, cut);
   meter.measure(moved);
   for (std::size_t i = 0; i < 800; ++i) {
     const Eigen::Map<const Eigen::Vector3f> pull(constraints.data.host().data() + 6 * i);
@@ -187,7 +300,8 @@ TEST(ResidualMeter, PointsOfTheTargetThatAreNotFiniteCountAsNone) {
   std::mt19937 random(5);
   Target target = make_target(random);
   spoil(target, random);
-  const Residual measured = expect_agreement(device, {1000, 1, 0}, target, make_moved(random, 1111));
+  const Residual measured =
+      expect_agreement(device, ProjectiveCorrespondence(limits(1000, 1)), target, make_moved(random, 1111));
   EXPECT_GT(measured.matched, 100);
   EXPECT_EQ(measured.lost, 0);
 }
@@ -207,7 +321,7 @@ TEST(ProjectiveCorrespondence, TakesNothingFromTheTargetThatIsNotFinite) {
   found.confidence = Array<float>(std::vector<float>(500));
   Constraints expected = found;
   for (const int radius : {0, 3}) {
-    const ProjectiveCorrespondence correspondence(1e4, 1.5, radius);
+    const ProjectiveCorrespondence correspondence(limits(1e4, 1.5, radius));
     correspondence.match(device, moved, selected, target, found);
     correspondence.match_reference(moved, selected, target, expected);
     EXPECT_EQ(found.confidence.host(), expected.confidence.host());
@@ -246,19 +360,20 @@ TEST(ResidualMeter, CountsThePointsThatAreLost) {
   values[0] = std::numeric_limits<float>::quiet_NaN();
   values[1001] = std::numeric_limits<float>::infinity();
   values[2000] = 2e18F;
-  EXPECT_EQ(expect_agreement(device, {1000, 1, 0}, target, moved).lost, 3);
+  EXPECT_EQ(expect_agreement(device, ProjectiveCorrespondence(limits(1000, 1)), target, moved).lost, 3);
 }
 
 TEST(ResidualMeter, IsZeroWhereNothingLands) {
   Device device;
   std::mt19937 random(5);
   const Target target = make_target(random);
-  const ProjectiveCorrespondence projective(1000, 1, 0);
-  ResidualMeter meter(device, projective, target, 1);
+  const ProjectiveCorrespondence projective(limits(1000, 1));
+  ResidualMeter meter(device, projective, target, 1, cut);
   const Residual residual =
       meter.measure({Array<float>(std::vector<float>{0, 0, -10}), Array<float>(std::vector<float>{0, 0, 0})});
   EXPECT_EQ(residual.landed, 0);
   EXPECT_EQ(residual.mean, 0);
+  EXPECT_EQ(residual.robust, cut);
   EXPECT_EQ(meter.per_point().host()[0], -1);
 }
 

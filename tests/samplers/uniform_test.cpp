@@ -25,5 +25,23 @@ TEST(UniformSampler, TakesTheCentreOfEachMaskAndKeepsIt) {
   EXPECT_EQ(samples->points(), expected);
 }
 
+TEST(UniformSampler, ComesNearAWishedNumberWhateverTheResolution) {
+  Registry registry;
+  register_uniform_sampler(registry);
+  const auto sampler =
+      registry.make<ConstraintSampler>(Parameters("uniform", {{"points", std::int64_t{150}}}));
+  Device device;
+  for (const int scale : {1, 2, 3}) {
+    const Surface surface = holey_surface(96 * scale, 70 * scale, 1);
+    const auto count = sampler->select(device, surface, Camera{})->points().size();
+    EXPECT_GT(count, 110U) << scale;
+    EXPECT_LT(count, 200U) << scale;
+  }
+  const auto by_step = registry.make<ConstraintSampler>(
+      Parameters("uniform", {{"step", std::int64_t{5}}, {"points", std::int64_t{150}}}));
+  const Surface surface = holey_surface(96, 70, 1);
+  EXPECT_EQ(by_step->select(device, surface, Camera{})->points(), points_on_grid(surface, 5));
+}
+
 }  // namespace
 }  // namespace pliant
