@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -30,9 +31,16 @@ struct NodeMembers {
   std::vector<std::size_t> points;
 };
 
-bool are_equal(const int* a, const int* b, std::size_t count) {
+/// Most points are told apart by this: the size that is usual is known when it is compiled.
+bool are_same(const int* nodes, const int* others, std::size_t count) {
+  return count == 4 ? std::memcmp(nodes, others, 4 * sizeof(int)) == 0
+                    : std::equal(nodes, nodes + count, others);
+}
+
+/// Whether each of `nodes` is one of `others`, of as many.
+bool are_among(const int* nodes, const int* others, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
-    if (a[i] != b[i]) return false;
+    if (nodes[i] != others[i] && std::find(others, others + count, nodes[i]) == others + count) return false;
   return true;
 }
 
@@ -41,14 +49,11 @@ bool are_equal(const int* a, const int* b, std::size_t count) {
 NodeMembers members_of_nodes(const std::vector<int>& nodes, std::size_t k, std::size_t node_count) {
   std::vector<std::size_t> telling;
   std::vector<std::size_t> first(node_count + 1, 0);
-  std::vector<int> set(k), last(k, -1);
+  const int* last = nullptr;
   for (std::size_t entry = 0; entry + k <= nodes.size(); entry += k) {
     const int* point = nodes.data() + entry;
-    if (entry > 0 && are_equal(point, point - k, k)) continue;
-    set.assign(point, point + k);
-    std::sort(set.begin(), set.end());
-    if (set == last) continue;
-    std::swap(set, last);
+    if (entry > 0 && (are_same(point - k, point, k) || are_among(point, last, k))) continue;
+    last = point;
     telling.push_back(entry / k);
     for (std::size_t slot = 0; slot < k; ++slot) ++first[static_cast<std::size_t>(nodes[entry + slot]) + 1];
   }

@@ -12,10 +12,13 @@ ParameterTable stopping_table() {
       integer("max_iterations", rule.max_iterations)
           .range(1, 10000)
           .doc("Outer iterations (match, minimise, update) at most"),
-      real("residual", rule.residual).unit("mm").at_least(0).doc("Ends when the mean residual is below"),
+      real("residual", rule.residual)
+          .unit("mm")
+          .at_least(0)
+          .doc("Ends when the mean residual of accepted matches is below"),
       real("min_progress", rule.min_progress)
           .range(0, 1)
-          .doc("Ends when the mean residual falls by less than this share of itself"),
+          .doc("Ends when that residual falls by less than this share of itself"),
       real("cut", rule.cut)
           .unit("mm")
           .above(0)

@@ -132,9 +132,3 @@ kernel void collapse(int level, float threshold, global const float2* totals, gl
   state[at] = LEAF;
   for (int i = child; i < child + 4; ++i) state[i] = ABSENT;
 }
-
-// Raises the flag of every point that is the node of a leaf.
-kernel void mark_nodes(int cells, global const int* centre, global const int* state, global int* flags) {
-  const int at = get_global_id(0);
-  if (at < cells && state[at] == LEAF && centre[at] >= 0) flags[centre[at]] = 1;
-}

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "framework/core/error.h"
-#include "framework/device/compact.h"
 #include "framework/geometry/pixel_index.h"
 #include "graphs/quadtree/quadtree.cl.embed.h"
 
@@ -42,7 +41,7 @@ class QuadtreeNodes : public NodeSelection {
     // Deepest first, so that no child is judged by a residual that was measured without it.
     for (int level = levels_ - 1; level >= 1; --level) refine(device, level, settings_.refine_threshold);
     for (int level = levels_ - 1; level >= initial_levels_; --level) collapse(device, level);
-    return collect(device);
+    return collect();
   }
 
   std::vector<GraphCell> cells() const override {
@@ -70,7 +69,6 @@ class QuadtreeNodes : public NodeSelection {
         map_(index.points.pixels()),
         centre_(static_cast<std::size_t>(first_cell(levels_ + 1))),
         state_(static_cast<std::size_t>(first_cell(levels_ + 1))),
-        flags_(source.size()),
         totals_(device.allocate(state_.size() * sizeof(cl_float2))) {
     build(device, source.size());
   }
@@ -83,7 +81,7 @@ class QuadtreeNodes : public NodeSelection {
       run(device, find, level, level, root(), size_, map_.device(device), totals_,
           centre_.write_device(device), state_.write_device(device));
     for (int level = 1; level < initial_levels_; ++level) refine(device, level, -1);
-    collect(device);
+    collect();
   }
 
   /// The sums of residuals over the region of every cell, from the deepest level up.
@@ -108,14 +106,16 @@ class QuadtreeNodes : public NodeSelection {
         centre_.device(device), state_.write_device(device));
   }
 
-  /// Compacts the nodes; whether they are others than before.
-  bool collect(Device& device) {
-    auto mark = kernel(device, "mark_nodes");
-    device.fill_zero(flags_.write_device(device), flags_.size() * sizeof(cl_int));
-    device.run(stage, mark, state_.size(), group, static_cast<cl_int>(state_.size()), centre_.device(device),
-               state_.device(device), flags_.write_device(device));
-    const std::vector<int> before = std::exchange(nodes_, compact(device, stage, flags_).host());
-    return nodes_ != before;
+  /// Gathers the nodes, on the host, as cells are few; whether they are others than before.
+  bool collect() {
+    const auto& centre = centre_.host();
+    const auto& state = state_.host();
+    std::vector<int> nodes;
+    for (std::size_t cell = 0; cell < state.size(); ++cell)
+      if (state[cell] == leaf && centre[cell] >= 0) nodes.push_back(centre[cell]);
+    std::sort(nodes.begin(), nodes.end());
+    std::swap(nodes, nodes_);
+    return nodes_ != nodes;
   }
 
   static cl::Kernel kernel(Device& device, const char* name) {
@@ -158,7 +158,6 @@ class QuadtreeNodes : public NodeSelection {
   Array<int> map_;     ///< point at each pixel
   Array<int> centre_;  ///< per cell; see quadtree.cl
   Array<int> state_;   ///< per cell; see quadtree.cl
-  Array<int> flags_;   ///< per point: is it a node?
   cl::Buffer totals_;  ///< per cell: sum and number of its known residuals
   std::vector<int> nodes_;
 };

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "framework/device/compact.h"
 #include "framework/geometry/pixel_index.h"
 #include "samplers/adaptive/adaptive.cl.embed.h"
 
@@ -44,9 +43,7 @@ class AdaptiveSelection : public PointSelection {
     device.run(stage, choose, mask_count, 64, masks_, step_, spread_rows_.device(device), threshold_, corner_,
                size_, map_.device(device), is_centre_.device(device), residuals.device(device),
                flags_.write_device(device));
-    const std::vector<int> before = std::exchange(points_, compact(device, stage, flags_).host());
-    if (equal_masks_) weigh();
-    return points_ != before;
+    return collect();
   }
 
  private:
@@ -67,13 +64,19 @@ class AdaptiveSelection : public PointSelection {
     is_centre_ = Array<int>(std::move(is_centre));
   }
 
-  /// As many constraints as a mask has share what its one point at first weighs.
-  void weigh() {
+  /// Gathers what was chosen; whether it is other points than before. As many constraints as a mask has share
+  /// what its one point at first weighs.
+  bool collect() {
     const auto& in_mask = flags_.host();
+    std::vector<int> points;
     weights_.clear();
-    weights_.reserve(points_.size());
-    for (const int point : points_)
-      weights_.push_back(1.0F / static_cast<float>(in_mask[static_cast<std::size_t>(point)]));
+    for (std::size_t point = 0; point < in_mask.size(); ++point) {
+      if (in_mask[point] == 0) continue;
+      points.push_back(static_cast<int>(point));
+      if (equal_masks_) weights_.push_back(1.0F / static_cast<float>(in_mask[point]));
+    }
+    std::swap(points, points_);
+    return points_ != points;
   }
 
   int masks_over(int first, int count) const { return (first + count - 1) / step_ - first / step_ + 1; }
