@@ -102,7 +102,7 @@ std::string doubt_about_density(const RgbdFrame& frame, const std::string& path)
   return fmt::format(
       "{}: the depth is sparse: {:.0f}% of the points have fewer than three others within {} pixels; normals "
       "come "
-      "from up to {} pixels away",
+      "from up to {} pixels away, and matches are as coarse",
       path, 100 * sparse, default_normal_radius, widest_normal_radius);
 }
 

@@ -25,9 +25,10 @@ struct PixelBox {
 inline constexpr int gap_radius = 3;
 
 /// The point seen at a pixel of the camera's image. In a gap between points, as sparse depth and single lines
-/// that are missing leave them, the nearest point of the box that is at most `gap_radius` pixels away in u and
-/// v, the first one in row-major order on a tie. It is a gap where points lie in all four quadrants around the
-/// pixel, within that distance and the axes included; outside the object they do not. -1 where there is none.
+/// that are missing leave them, the nearest point of the box that is at most `gap_radius` pixels away in u
+/// and v, the first one in row-major order on a tie. It is a gap where points lie in all four quadrants
+/// around the pixel, within that distance and the axes included; outside the object they do not. -1 where
+/// there is none.
 int point_at(const PixelIndex& index, const Eigen::Vector2i& pixel, const PixelBox& box);
 
 /// The points of the surface, by index and ascending, at the centres (see point_at) of `step` x `step` pixel

@@ -8,10 +8,10 @@ namespace pliant {
 /// A quadtree over the projection of the source, whose leaves are the nodes of the graph [thesis 4.3].
 ///
 /// The root is the square around the bounding box of the projection; level l divides it into 4^l cells. A
-/// leaf has its node at the point seen at the centre of its cell (point_at of pixel_index.h). A leaf with points, but none there, is
-/// virtual: it has no node, and the tree may grow in it. (The thesis has virtual nodes on the first two
-/// levels only; deeper down such a cell would be lost with all its points.) A cell is not
-/// divided where that would take away its node and give none.
+/// leaf has its node at the point seen at the centre of its cell (point_at of pixel_index.h). A leaf with
+/// points, but none there, is virtual: it has no node, and the tree may grow in it. (The thesis has virtual
+/// nodes on the first two levels only; deeper down such a cell would be lost with all its points.) A cell is
+/// not divided where that would take away its node and give none.
 class QuadtreeGraph : public GraphBuilder {
  public:
   struct Settings {
