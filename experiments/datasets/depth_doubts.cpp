@@ -21,10 +21,11 @@ std::vector<float> depths_of(const RgbdFrame& frame) {
   return depths;
 }
 
-/// The scale that would bring a depth in the wrong unit where depth cameras see.
+/// The scale that would bring a depth, as it is counted in the file, where depth cameras see.
 const char* likely_scale(double median) {
   if (median > 50000) return "0.1 (tenths of a millimetre)";
   if (median > 10000) return "0.2 (5000 units a metre, as TUM's)";
+  if (median >= 100) return "1 (millimetres)";
   return median > 10 ? "10 (centimetres)" : "1000 (metres)";
 }
 
@@ -101,7 +102,7 @@ std::string doubt_about_density(const RgbdFrame& frame, const std::string& path)
   return fmt::format(
       "{}: the depth is sparse: {:.0f}% of the points have fewer than three others within {} pixels; normals "
       "come "
-      "from up to {} pixels away",
+      "from up to {} pixels away, and matches are as coarse",
       path, 100 * sparse, default_normal_radius, widest_normal_radius);
 }
 

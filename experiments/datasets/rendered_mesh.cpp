@@ -25,6 +25,10 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
+// What depth cameras are pointed at is seldom beyond these.
+constexpr double smallest_mesh = 10;    // mm
+constexpr double largest_mesh = 10000;  // mm
+
 /// The weight in "name=weight", none when that is not how the item is written.
 std::optional<double> parse_weight(const std::string& item, std::size_t equals) {
   if (equals == std::string::npos) return std::nullopt;
@@ -151,11 +155,17 @@ void RenderedMesh::check_is_seen(const Image<Fragment>& seen, const char* which)
   const auto& pixels = seen.pixels();
   const auto shows = [](const Fragment& fragment) { return fragment.triangle >= 0; };
   if (!is_inside && std::any_of(pixels.begin(), pixels.end(), shows)) return;
-  throw DataError(fmt::format(
-      "{}: {} {} mesh, which is {:.3g} x {:.3g} x {:.3g} mm, {:g} mm away; in another unit than {:g} "
-      "mm? See mesh_scale, mm a unit of the file, and distance",
-      settings_.mesh, is_inside ? "the camera is inside the" : "no pixel of the camera sees the", which,
-      size.x(), size.y(), size.z(), settings_.distance, settings_.mesh_scale));
+  throw DataError(fmt::format("{}: {} {} mesh {:g} mm away; {}", settings_.mesh,
+                              is_inside ? "the camera is inside the" : "no pixel of the camera sees the",
+                              which, settings_.distance, described_size()));
+}
+
+std::string RenderedMesh::described_size() const {
+  const Eigen::Vector3d size = box().sizes();
+  return fmt::format(
+      "it is {:.6g} x {:.6g} x {:.6g} mm; if the file counts in another unit than {:g} mm, say which "
+      "by mesh_scale",
+      size.x(), size.y(), size.z(), settings_.mesh_scale);
 }
 
 FramePair RenderedMesh::load(std::uint64_t seed) const {
@@ -174,6 +184,8 @@ FramePair RenderedMesh::load(std::uint64_t seed) const {
   pair.name = fmt::format("{}, {} to {}", std::filesystem::path(settings_.mesh).stem().string(),
                           described(settings_.source), described(settings_.target));
   pair.camera = camera;
+  if (const double length = box().sizes().maxCoeff(); length < smallest_mesh || length > largest_mesh)
+    pair.warnings.push_back(fmt::format("{}: {}", settings_.mesh, described_size()));
   pair.source = picture_of(seen_source, mesh_.triangles, at_rest);
   pair.target = picture_of(seen_target, mesh_.triangles, at_rest);
   pair.scene_flow = scene_flow(seen_source, mesh_.triangles, source, target);

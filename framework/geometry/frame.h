@@ -26,7 +26,7 @@ struct FramePair {
   /// unknown; empty when nothing is known.
   Image<Eigen::Vector3f> scene_flow;
   /// What is odd about all this, though it can be used: a line each. They go into what is made of the pair.
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = {};
 };
 
 }  // namespace pliant

@@ -36,6 +36,28 @@ TEST_F(ConfigErrorLine, YamlThatIsNoExperiment) {
               ElementsAre("exp.yaml:1:7: the tag '!custom' is not supported"));
 }
 
+TEST_F(ConfigErrorLine, TabsInTheIndentation) {
+  const std::string expected = ": a tab in the indentation; expected spaces";
+  EXPECT_THAT(errors("data: sheet\nenergies:\n\trotation: {}\n"), ElementsAre("exp.yaml:3:1" + expected));
+  EXPECT_THAT(errors("data: sheet\nenergies:\n  \trotation: {}\n"), ElementsAre("exp.yaml:3:3" + expected));
+  EXPECT_THAT(errors("data: sheet\nenergies:\n  rotation:\n    weight: 1\n\t  robust: true\n"),
+              ElementsAre("exp.yaml:5:1" + expected));
+  EXPECT_THAT(errors(minimal + "title:\ta\t# b\n"), IsEmpty()) << "elsewhere they are as good as spaces";
+}
+
+TEST_F(ConfigErrorLine, NoSpaceAfterAColon) {
+  const std::string expected = ": no space after the colon of 'data'; expected 'data: sheet'";
+  EXPECT_THAT(errors("data:sheet\n"), ElementsAre("exp.yaml:1:1" + expected));
+  EXPECT_THAT(errors("energies: {}\ndata:sheet\n"), ElementsAre("exp.yaml:2:1" + expected));
+  EXPECT_THAT(errors("data:sheet\nenergies: {}\n"), ElementsAre("exp.yaml:1:1" + expected));
+  EXPECT_THAT(errors("{energies: {}, data:sheet}\n"), ElementsAre("exp.yaml:1:16" + expected));
+  EXPECT_THAT(errors(minimal + "stop:\n  limit:2\n  rounds: 3\n"),
+              ElementsAre("exp.yaml:4:3: no space after the colon of 'limit'; expected 'limit: 2'"));
+  EXPECT_THAT(errors(minimal, {"stop={rounds:3}"}),
+              ElementsAre("--set stop: no space after the colon of 'rounds'; expected 'rounds: 3'"));
+  EXPECT_THAT(errors(minimal + "title: http://a:b\n"), IsEmpty());
+}
+
 TEST_F(ConfigErrorLine, TextThatIsNotUtf8) {
   const std::string expected = ": a letter that is not UTF-8; expected a text in UTF-8";
   EXPECT_THAT(errors("title: é\ndata: é\xff\n"), ElementsAre("exp.yaml:2:8" + expected));

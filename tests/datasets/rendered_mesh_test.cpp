@@ -18,7 +18,9 @@ using ::testing::AllOf;
 using testing::config_error_of;
 using testing::data_error_of;
 using testing::data_of;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// The square of 200 mm of square_glb(), whose targets are "bulge" and "slide", seen from 700 mm.
 class RenderedSquare : public testing::TestFiles {
@@ -127,6 +129,25 @@ TEST_F(RenderedSquare, ExpressionsThatDoNotExistAreErrors) {
     EXPECT_THAT(config_error_of(section(std::string(", target: ['") + item + "']")),
                 HasSubstr("expected name=weight"));
   }
+}
+
+TEST_F(RenderedSquare, AMeshInAnotherUnitIsToldWithItsSize) {
+  EXPECT_THAT(data_error_of([&] { load(", mesh_scale: 1.0e+6, cx: 9000000"); }),
+              AllOf(HasSubstr("square.glb: no pixel of the camera sees the source mesh 700 mm away"),
+                    HasSubstr("it is 200000 x 200000 x 0 mm"), HasSubstr("by mesh_scale")));
+  EXPECT_THAT(load(", mesh_scale: 10").warnings, ElementsAre(HasSubstr("it is 2 x 2 x 0 mm")));
+  EXPECT_THAT(load(", mesh_scale: 1.0e+5").warnings, ElementsAre(HasSubstr("it is 20000 x 20000 x 0 mm")));
+  const FramePair smaller = load(", mesh_scale: 400");
+  EXPECT_THAT(smaller.warnings, IsEmpty());
+  EXPECT_EQ(count_points(smaller.source.depth), 60 * 60);
+}
+
+TEST_F(RenderedSquare, ACameraInsideTheMeshIsAnError) {
+  auto glb = testing::square_glb();
+  glb.json["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"mesh", 0}, {"translation", {0, 0, 2}}}};
+  write("square.glb", glb.bytes());
+  EXPECT_THAT(data_error_of([&] { load(""); }),
+              AllOf(HasSubstr("the camera is inside the source mesh"), HasSubstr("200 x 200 x 2000 mm")));
 }
 
 TEST_F(RenderedSquare, AMeshThatCannotBeReadOrSeenIsAnError) {

@@ -14,7 +14,9 @@ namespace {
 
 using ::testing::AllOf;
 using testing::data_error_of;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 constexpr int kWidth = 40;
 constexpr int kHeight = 30;
@@ -70,6 +72,65 @@ TEST_F(RgbdPairFiles, DescribeTheSameInAnExperimentFile) {
   EXPECT_EQ(pair.target.depth(5, 6), 0) << "farther than max_depth";
   EXPECT_TRUE(pair.source.color.empty());
   EXPECT_TRUE(pair.scene_flow.empty());
+}
+
+DepthImage ramp(float from, float step) {
+  DepthImage depth(kWidth, kHeight);
+  for (std::size_t i = 0; i < depth.size(); ++i) depth.data()[i] = from + step * static_cast<float>(i % 50);
+  return depth;
+}
+
+TEST_F(RgbdPairFiles, GoodOnesCauseNoDoubt) {
+  write_depth(file("b.png"), ramp(700, 1));
+  EXPECT_THAT(load().warnings, IsEmpty());
+}
+
+TEST_F(RgbdPairFiles, DepthMayBeInAnotherUnit) {
+  write_depth(file("a.png"), ramp(4000, 1));
+  write_depth(file("b.png"), ramp(4000, 1));
+  settings_.depth_scale = 0.2;
+  const FramePair pair = load();
+  EXPECT_EQ(pair.source.depth(0, 0), 800);
+  EXPECT_FLOAT_EQ(pair.target.depth(1, 0), 800.2F);
+  EXPECT_THAT(pair.warnings, IsEmpty());
+}
+
+TEST_F(RgbdPairFiles, DepthThatIsPlausiblyInAnotherUnitIsDoubted) {
+  const auto warning_for = [&](const DepthImage& depth, double scale = 1) {
+    write_depth(file("b.png"), depth);
+    write_depth(file("a.png"), depth);
+    settings_.depth_scale = scale;
+    const auto warnings = load().warnings;
+    EXPECT_EQ(warnings.size(), 2U);
+    EXPECT_THAT(warnings.front(), HasSubstr(file("a.png")));
+    return warnings.back();
+  };
+  EXPECT_THAT(warning_for(ramp(1, 0)),
+              AllOf(HasSubstr("b.png: the median depth is 1 mm"), HasSubstr("1000 (metres)")));
+  EXPECT_THAT(warning_for(ramp(60, 0.1F)), HasSubstr("10 (centimetres)"));
+  EXPECT_THAT(warning_for(ramp(12000, 7)), HasSubstr("0.2 (5000 units a metre"));
+  EXPECT_THAT(warning_for(ramp(60000, 1)), HasSubstr("0.1 (tenths of a millimetre)"));
+  EXPECT_THAT(warning_for(ramp(800, 1), 1000), AllOf(HasSubstr("now 1000"), HasSubstr("1 (millimetres)")));
+  EXPECT_THAT(warning_for(ramp(4000, 5)), HasSubstr("multiples of 5"));
+}
+
+TEST_F(RgbdPairFiles, SparseDepthIsDoubted) {
+  const auto warnings_for = [&](int step) {
+    DepthImage depth(kWidth, kHeight, 0);
+    for (int v = 0; v < kHeight; v += step)
+      for (int u = 0; u < kWidth; u += step) depth(u, v) = 800;
+    write_depth(file("b.png"), depth);
+    return load().warnings;
+  };
+  EXPECT_THAT(warnings_for(2), IsEmpty());
+  EXPECT_THAT(warnings_for(3),
+              ElementsAre(AllOf(HasSubstr("b.png: the depth is sparse"), HasSubstr("100%"))));
+  EXPECT_THAT(warnings_for(9), ElementsAre(HasSubstr("no normals")));
+}
+
+TEST_F(RgbdPairFiles, IntrinsicsOfCutImagesAreDoubted) {
+  write("k.txt", "50 0 4.5\n0 50 14.5\n0 0 1\n");
+  EXPECT_THAT(load().warnings, ElementsAre(HasSubstr("k.txt:1: the principal point")));
 }
 
 TEST_F(RgbdPairFiles, AMissingFileIsNamed) {

@@ -66,7 +66,9 @@ TEST_F(ExperimentTest, QuickRunThatIsNoneIsAnError) {
 
 TEST_F(ExperimentTest, NamesThatCannotNameAFolderAreErrors) {
   EXPECT_THAT(error("runs: {../up: }"), HasSubstr("the run's name '../up' cannot name a folder"));
-  EXPECT_THAT(error("name: a/b"), HasSubstr("the experiment's name 'a/b' cannot name a folder"));
+  for (const char* name : {"a/b", "a#b", "a?b", ".a", "a:b", "a%41"})
+    EXPECT_THAT(error("name: '" + std::string(name) + "'"),
+                HasSubstr("the experiment's name '" + std::string(name) + "' cannot name a folder"));
 }
 
 TEST_F(ExperimentTest, ExperimentsThatComeWithTheProjectAreGood) {

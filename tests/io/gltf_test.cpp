@@ -190,6 +190,49 @@ TEST_F(Gltf, OnlyTheDefaultSceneIsRead) {
   EXPECT_EQ(read(glb).vertices.size(), 8u);
 }
 
+TEST_F(Gltf, WithoutAnySceneEveryNodeIsShownOnce) {
+  GlbFile glb = square_glb();
+  glb.json.erase("scenes");
+  glb.json.erase("scene");
+  EXPECT_EQ(read(glb).vertices, read(square_glb()).vertices);
+  glb.json["nodes"] = {{{"mesh", 0}}, {{"translation", {0, 0, 1}}, {"children", {0}}}, {{"mesh", 0}}};
+  const Mesh mesh = read(glb);
+  ASSERT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_EQ(mesh.vertices[0].z() + mesh.vertices[4].z(), 1000) << "one of both is moved by its parent";
+}
+
+TEST_F(Gltf, StripsAndFansAreTriangles) {
+  GlbFile glb = square_glb();
+  const auto corners = glb.indices(std::vector<std::uint8_t>{0, 1, 3, 2, 0}, GlbFile::kByte);
+  json& primitive = glb.json["meshes"][0]["primitives"][0];
+  primitive["indices"] = corners;
+  primitive["mode"] = 5;
+  EXPECT_THAT(read(glb).triangles,
+              ElementsAre(Eigen::Vector3i(0, 1, 3), Eigen::Vector3i(1, 2, 3), Eigen::Vector3i(3, 2, 0)));
+  primitive["mode"] = 6;
+  EXPECT_THAT(read(glb).triangles,
+              ElementsAre(Eigen::Vector3i(0, 1, 3), Eigen::Vector3i(0, 3, 2), Eigen::Vector3i(0, 2, 0)));
+}
+
+TEST_F(Gltf, PointsAndLinesArePassedOver) {
+  for (int mode = 0; mode < 4; ++mode) {
+    GlbFile glb = square_glb();
+    json& primitives = glb.json["meshes"][0]["primitives"];
+    const json triangles = primitives[0];
+    const json other = {{"attributes", {{"POSITION", 0}}}, {"mode", mode}};
+    primitives = json::array({other, triangles});
+    EXPECT_EQ(read(glb).vertices, read(square_glb()).vertices) << mode;
+    primitives = json::array({other});
+    EXPECT_THAT(error_of(glb.bytes()), HasSubstr("shows no triangle"));
+  }
+}
+
+TEST_F(Gltf, OtherUnitsThanMetresMayBeNamed) {
+  const auto path = write("mesh.glb", square_glb().bytes());
+  EXPECT_EQ(read_gltf(path, 10).vertices[1], Eigen::Vector3f(1, -1, 0));
+  EXPECT_FLOAT_EQ(read_gltf(path, 10).targets[1].displacements[0].x(), 0.2F);
+}
+
 TEST_F(Gltf, OtherFilesAreErrors) {
   EXPECT_THAT(error_of({}), HasSubstr("truncated"));
   EXPECT_THAT(error_of({'s', 'o', 'l', 'i', 'd', ' ', 'x', ' ', ' ', ' ', ' ', ' '}),
@@ -217,8 +260,8 @@ TEST_F(Gltf, WhatIsNotSupportedIsNamed) {
               }),
               HasSubstr("outside the binary chunk"));
   EXPECT_THAT(error_after([](json& file) { file["nodes"][0]["skin"] = 0; }), HasSubstr("skinned"));
-  EXPECT_THAT(error_after([](json& file) { file["meshes"][0]["primitives"][0]["mode"] = 5; }),
-              HasSubstr("mode 5"));
+  EXPECT_THAT(error_after([](json& file) { file["meshes"][0]["primitives"][0]["mode"] = 7; }),
+              HasSubstr("mode 7"));
 }
 
 TEST_F(Gltf, WhatIsOutOfBoundsIsNamed) {
@@ -297,7 +340,12 @@ TEST_F(Gltf, WhatMakesNoSenseIsNamed) {
               HasSubstr("not affine"));
   EXPECT_THAT(error_after([](json& file) { file["scenes"][0]["nodes"] = json::array(); }),
               HasSubstr("shows no triangle"));
-  EXPECT_THAT(error_after([](json& file) { file.erase("scenes"); }), HasSubstr("'scenes'"));
+  EXPECT_THAT(error_after([](json& file) { file["scene"] = 1; }), HasSubstr("element 1 of 'scenes'"));
+  EXPECT_THAT(error_after([](json& file) {
+                file.erase("scenes");
+                file["nodes"][0]["children"] = {9};
+              }),
+              HasSubstr("element 9 of 'nodes'"));
   GlbFile glb = square_glb();
   glb.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
       glb.vectors({0, 0, 0, 1, 0, 0, 0, 1, std::nanf(""), 0, 1, 0});

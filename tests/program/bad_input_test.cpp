@@ -87,6 +87,36 @@ TEST_F(BadInputTest, IntrinsicsOfAnotherSize) {
   expect_refusal(3, file("k.txt"), "160x120");
 }
 
+TEST_F(BadInputTest, NormalisedIntrinsics) {
+  write("k.txt", "0.82 0 0.5\n0 1.09 0.5\n0 0 1\n");
+  expect_refusal(3, file("k.txt") + ":1", "look normalised");
+}
+
+TEST_F(BadInputTest, WhatIsOddAboutTheDataIsToldByEveryCommand) {
+  const char* warning = "b.png: the median depth is 32";
+  const ProgramRun run = call("run pair.yaml --out out --set data.depth_scale=0.04");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(warning));
+  EXPECT_THAT(text_of("out/result.json"), HasSubstr(warning));
+  EXPECT_THAT(call("check pair.yaml --set data.depth_scale=0.04").out, HasSubstr(warning));
+}
+
+TEST_F(BadInputTest, AnErrorComesWithWhatIsOddAboutTheData) {
+  DepthImage depth(width, height, 0);
+  for (int v = 0; v < height; v += 9)
+    for (int u = 0; u < width; u += 9) depth(u, v) = 800;
+  write_depth(file("a.png"), depth);
+  expect_refusal(3, "choose a finer one; warning: " + file("a.png"), "no normals",
+                 " --set graph.spacing=1000");
+}
+
+TEST_F(BadInputTest, NamesWithSpacesParenthesesAndUmlautsAreGood) {
+  std::filesystem::copy(file("pair.yaml"), file("mein Gesicht (2) \xC3\xBC#1.yaml"));
+  const ProgramRun run = call("run 'mein Gesicht (2) \xC3\xBC#1.yaml'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(file("out/mein Gesicht (2) \xC3\xBC_1/result.json")));
+}
+
 TEST_F(BadInputTest, ImagesOfDifferentSize) {
   write_depth(file("b.png"), DepthImage(80, 60, 800));
   expect_refusal(3, file("b.png"), "80x60 pixels, but the depth image " + file("a.png") + " has 160x120");

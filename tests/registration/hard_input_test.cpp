@@ -9,6 +9,7 @@
 
 #include "framework/core/error.h"
 #include "framework/geometry/pixel_index.h"
+#include "framework/registration/metrics.h"
 #include "framework/registration/registration.h"
 #include "tests/experiments/experiment_files.h"
 
@@ -413,6 +414,51 @@ FramePair garbage(int points, std::mt19937& random) {
   for (int v = 0; v < 30; ++v)
     for (int u = 0; u < 40; ++u) pair.target.depth(u, v) = depth();
   return pair;
+}
+
+void keep(DepthImage& depth, const std::function<bool(int, int)>& is_kept) {
+  for (int v = 0; v < depth.height(); ++v)
+    for (int u = 0; u < depth.width(); ++u)
+      if (!is_kept(u, v)) depth(u, v) = 0;
+}
+
+/// Mean end-point error over that of no motion.
+double share_of_error_left(const FramePair& pair, const RegistrationResult& result) {
+  const Evaluation evaluation(pair, result.source, make_surface_map(pair.target, pair.camera));
+  return evaluation.measure(result.points).truth.value().epe_mean /
+         evaluation.measure(result.source.points).truth.value().epe_mean;
+}
+
+TEST_F(HardInputTest, SparseAndStripedSourcesAreRegistered) {
+  const Method method =
+      method_of({"energies.point_to_plane={weight: 100}", "correspondence.search_radius=8"});
+  for (const int step : {2, 3, 4}) {
+    FramePair sparse_source = sheet();
+    keep(sparse_source.source.depth, [&](int u, int v) { return u % step == 0 && v % step == 0; });
+    EXPECT_LT(share_of_error_left(sparse_source, register_with(sparse_source, method)), 0.5) << step;
+    for (int missing = 0; missing < step; ++missing) {
+      FramePair striped = sheet();
+      keep(striped.source.depth, [&](int, int v) { return v % step != missing; });
+      EXPECT_LT(share_of_error_left(striped, register_with(striped, method)), 0.5) << step << missing;
+    }
+  }
+}
+
+// Sparser ones draw points to where the camera looked: of those a warning tells.
+TEST_F(HardInputTest, SparseTargetsAreRegisteredTo) {
+  const Method method =
+      method_of({"energies.point_to_plane={weight: 100}", "correspondence.search_radius=8"});
+  for (const int step : {2, 3}) {
+    FramePair pair = sheet();
+    keep(pair.target.depth, [&](int u, int v) { return u % step == 0 && v % step == 0; });
+    EXPECT_LT(share_of_error_left(pair, register_with(pair, method)), 0.5) << step;
+  }
+}
+
+TEST_F(HardInputTest, WhatIsOddAboutThePairIsAmongTheWarnings) {
+  FramePair pair = sheet();
+  pair.warnings = {"odd"};
+  EXPECT_THAT(register_with(pair).warnings, ElementsAre("odd"));
 }
 
 TEST_F(HardInputTest, GarbageIsRefusedOrRegisteredToSomethingFinite) {
