@@ -54,6 +54,9 @@ class Device {
   /// `-DWIDTH=<width()>` is always defined. Throws DeviceError with the build log when the source does not
   /// compile.
   cl::Kernel kernel(std::string_view source, const std::string& name, const std::string& options = "");
+  /// Programs made since the device was opened: a computation during which this grows has waited for the
+  /// compiler, or for the driver to load what it kept on disk.
+  int programs_built() const { return programs_built_; }
 
   /// Enqueues a kernel over a one-dimensional range. `local` = 0 leaves the group size to the driver;
   /// otherwise `global` is rounded up to a multiple of it.
@@ -117,6 +120,7 @@ class Device {
   std::string all_options(const std::string& options) const;
 
   std::unordered_map<std::string, Program> programs_;       // by options and source
+  int programs_built_ = 0;
   mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: what allocate() gave out
   bool measuring_ = false;
   struct Record {
