@@ -18,8 +18,8 @@ fail() {
 expect() { [ "$1" = "$2" ] || fail "got '$1', expected '$2'"; }
 expect_in() { [[ $2 == *"$1"* ]] || fail "'$1' is not in '$2'"; }
 
-# Configures as CMake does: a cache made elsewhere is refused, and a failure leaves a cache. What it builds is a
-# program that tells which checkout it is of.
+# Configures as CMake does: a cache made elsewhere is refused, and a failure leaves a cache. Builds where it was
+# configured: a program that tells which checkout it is of.
 stub_tools() {
   mkdir "$box/bin"
   cat >"$box/bin/cmake" <<'STUB'
@@ -29,16 +29,17 @@ echo "cmake $*" >>"$CALLS"
 if [ "$1" = --preset ]; then
   [ "$2 $3" = "release -B" ]
   cache=$4/CMakeCache.txt
-  home=CMAKE_HOME_DIRECTORY:INTERNAL=$PWD
-  [ ! -f "$cache" ] || grep -qxF "$home" "$cache" || { echo "another checkout's cache"; exit 1; }
-  printf '%s\nCMAKE_CACHEFILE_DIR:INTERNAL=%s\n' "$home" "$4" >"$cache"
+  text=$(printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\nCMAKE_CACHEFILE_DIR:INTERNAL=%s' "$PWD" "$4")
+  [ ! -f "$cache" ] || [ "$(cat "$cache")" = "$text" ] || { echo "made elsewhere"; exit 1; }
+  echo "$text" >"$cache"
   [ -z "${FAILING_CONFIGURE:-}" ] || { echo "a package is missing"; exit 1; }
-  echo "$PWD" >"$4/build.ninja"
+  printf '%s\n' "$PWD" "$4" >"$4/build.ninja"
 else
   [ "$1" = --build ]
-  mkdir -p "$2/bin"
-  printf '#!/bin/sh\necho "%s: $*"\n' "$(cat "$2/build.ninja")" >"$2/bin/pliant"
-  chmod +x "$2/bin/pliant"
+  { read -r home; read -r folder; } <"$2/build.ninja"
+  mkdir -p "$folder/bin"
+  printf '#!/bin/sh\necho "%s: $*"\n' "$home" >"$folder/bin/pliant"
+  chmod +x "$folder/bin/pliant"
 fi
 STUB
   # Everything is installed.
@@ -128,6 +129,13 @@ another_folder_can_be_built_in() {
   expect "$code $out" "0 $checkout: run"
   [ -x "$box/elsewhere/ü/bin/pliant" ] || fail "not built there"
   [ ! -e "$checkout/build" ] || fail "something was made in the checkout"
+  mv "$box/elsewhere" "$box/there"
+  run env PLIANT_BUILD="there/ü" "$checkout/pliant" run
+  expect "$code $out" "0 $checkout: run"
+  [ ! -e "$box/elsewhere" ] || fail "built where the folder was before"
+  make_checkout second
+  run env PLIANT_BUILD="there/ü" "$checkout/pliant" run
+  expect "$code $out" "0 $checkout: run"
 }
 
 what_is_built_runs_without_writing() {
