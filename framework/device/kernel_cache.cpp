@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -34,11 +35,12 @@ fs::path private_folder() {
 }
 
 bool can_write_down_to(int depth, const fs::path& folder) {
-  if (access(folder.c_str(), R_OK | W_OK | X_OK) != 0) return false;
+  // What is gone was another run's, which has finished with it meanwhile.
+  if (access(folder.c_str(), R_OK | W_OK | X_OK) != 0) return errno == ENOENT;
   if (depth == 0) return true;
-  const fs::directory_iterator entries(folder);
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
   return std::all_of(begin(entries), end(entries), [&](const fs::directory_entry& entry) {
-    std::error_code error;
     return !entry.is_directory(error) || can_write_down_to(depth - 1, entry.path());
   });
 }
