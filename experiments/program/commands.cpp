@@ -60,7 +60,7 @@ void run_command(const ExperimentOptions& options) {
   const Registry registry = all_components();
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
   const fs::path folder = out_folder(options, plan);
-  Workbench workbench(registry);
+  Workbench workbench(registry, show_line);
   if (plan.has_handles()) {
     tell(plan, edit_experiment(plan, folder, workbench), folder);
     return;
@@ -92,7 +92,7 @@ void compare_command(const ExperimentOptions& options) {
   const Registry registry = all_components();
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
   const fs::path folder = out_folder(options, plan);
-  Workbench workbench(registry);
+  Workbench workbench(registry, show_line);
   std::vector<RunComparison> comparisons;
   {
     ProgressLine line;
@@ -125,8 +125,7 @@ void components_command(const std::string& kind, const std::string& name, bool a
 
 void devices_command() {
   const auto devices = Device::list();
-  if (devices.empty())
-    throw DeviceError("there is no OpenCL device; install a driver, e.g. the package pocl-opencl-icd");
+  if (devices.empty()) throw DeviceError(Device::why_none());
   for (const auto& device : devices)
     fmt::print("{}\n  {}, {} compute units, {} MiB\n  {}; {}; driver {}\n", device.name,
                device.is_gpu ? "GPU" : "CPU", device.compute_units, device.memory_bytes >> 20,

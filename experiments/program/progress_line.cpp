@@ -33,7 +33,7 @@ ProgressSink ProgressLine::sink() {
 
 void ProgressLine::show(const Progress& progress) const {
   if (!is_terminal_) {
-    fmt::print(stderr, "{}: {}\n", progress.what, progress.message);
+    show_line(progress);
     return;
   }
   const auto filled = static_cast<int>(std::lround(bar_width * std::clamp(progress.done, 0.0, 1.0)));
@@ -41,6 +41,11 @@ void ProgressLine::show(const Progress& progress) const {
                                        std::string(bar_width - filled, '.'), progress.what, progress.message);
   fmt::print(stderr, "\r\033[K{}", line.substr(0, terminal_width() - 1));
   std::fflush(stderr);
+}
+
+void show_line(const Progress& progress) {
+  const bool may_hold_a_bar = isatty(STDERR_FILENO) != 0;
+  fmt::print(stderr, "{}{}: {}\n", may_hold_a_bar ? "\r\033[K" : "", progress.what, progress.message);
 }
 
 }  // namespace pliant

@@ -22,4 +22,7 @@ class ProgressLine {
   bool is_terminal_;
 };
 
+/// Shows a step on stderr, in a line of its own that stays.
+void show_line(const Progress& progress);
+
 }  // namespace pliant

@@ -37,7 +37,7 @@ constexpr std::array items{
 class Reproduction {
  public:
   Reproduction(bool quick, fs::path out, std::string data)
-      : quick_(quick), out_(std::move(out)), data_(std::move(data)), workbench_(registry_) {
+      : quick_(quick), out_(std::move(out)), data_(std::move(data)), workbench_(registry_, show_line) {
     register_everything(registry_);
   }
 

@@ -37,7 +37,10 @@ std::string fingerprint(const Parameters& section) {
 
 Device& Workbench::device(const Parameters& experiment) {
   auto& device = devices_[experiment.text("device")];
-  if (device == nullptr) device = std::make_unique<Device>(experiment.text("device"));
+  if (device == nullptr) {
+    device = std::make_unique<Device>(experiment.text("device"));
+    device->tell_of_building(tell_of_building_);
+  }
   return *device;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "framework/core/error.h"
 #include "framework/core/registry.h"
@@ -14,8 +15,9 @@ namespace pliant {
 /// Opens devices and loads data, each once however many runs ask for it.
 class Workbench {
  public:
-  /// `registry` must outlive this.
-  explicit Workbench(const Registry& registry) : registry_(registry) {}
+  /// `registry` must outlive this. `tell_of_building`: see Device.
+  explicit Workbench(const Registry& registry, ProgressSink tell_of_building = {})
+      : registry_(registry), tell_of_building_(std::move(tell_of_building)) {}
 
   const Registry& registry() const { return registry_; }
   /// Throws DeviceError when there is none that the experiment would take.
@@ -25,6 +27,7 @@ class Workbench {
 
  private:
   const Registry& registry_;
+  ProgressSink tell_of_building_;
   std::map<std::string, std::unique_ptr<Device>> devices_;  // by what was asked for
   std::map<std::string, FramePair> pairs_;                  // by data section and seed
 };

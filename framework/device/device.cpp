@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "framework/core/error.h"
+#include "framework/device/kernel_cache.h"
 
 namespace pliant {
 namespace {
@@ -77,12 +78,19 @@ bool matches(const DeviceInfo& info, const std::string& selection) {
 }  // namespace
 
 std::vector<DeviceInfo> Device::list() {
+  open_kernel_cache();
   std::vector<DeviceInfo> infos;
   for (const auto& device : all_devices()) infos.push_back(describe(device));
   return infos;
 }
 
-Device::Device(const std::string& selection) {
+std::string Device::why_none() {
+  const std::string problem = kernel_cache_problem();
+  return problem.empty() ? "there is no OpenCL device: install a driver, e.g. the package pocl-opencl-icd"
+                         : "there is no OpenCL device: " + problem;
+}
+
+Device::Device(const std::string& selection) : kernel_cache_(open_kernel_cache()) {
   const auto devices = all_devices();
   const auto chosen = std::find_if(devices.begin(), devices.end(), [&](const cl::Device& device) {
     return matches(describe(device), lower(selection));
@@ -90,10 +98,8 @@ Device::Device(const std::string& selection) {
   if (chosen == devices.end()) {
     std::string known;
     for (const auto& info : list()) known += (known.empty() ? "" : ", ") + info.name;
-    throw DeviceError(fmt::format(
-        "no OpenCL device matches '{}'; {}", selection,
-        known.empty() ? "there is none at all: install an OpenCL driver, e.g. the package pocl-opencl-icd"
-                      : "there are: " + known));
+    throw DeviceError(fmt::format("no OpenCL device matches '{}'; {}", selection,
+                                  known.empty() ? why_none() : "there are: " + known));
   }
   device_ = *chosen;
   info_ = describe(device_);
@@ -110,11 +116,7 @@ cl::Kernel Device::kernel(std::string_view source, const std::string& name, cons
   auto& kernel = kernels[name];
   if (kernel() != nullptr) return kernel;
   try {
-    if (program() == nullptr) {
-      cl::Program fresh(context_, std::string(source));
-      fresh.build({device_}, all_options(options).c_str());
-      program = fresh;
-    }
+    if (program() == nullptr) program = build(source, options);
     return kernel = cl::Kernel(program, name.c_str());
   } catch (const cl::BuildError& error) {
     std::string log;
@@ -125,8 +127,19 @@ cl::Kernel Device::kernel(std::string_view source, const std::string& name, cons
   }
 }
 
-std::string Device::all_options(const std::string& options) const {
-  return fmt::format("-cl-std=CL1.2 -DWIDTH={} {}", width(), options);
+cl::Program Device::build(std::string_view source, const std::string& options) {
+  const std::string all_options = fmt::format("-cl-std=CL1.2 -DWIDTH={} {}", width(), options);
+  const std::string identity =
+      fmt::format("{}\n{}\n{}\n{}\n{}", info_.platform, info_.driver, info_.name, all_options, source);
+  const bool is_new = !is_noted(kernel_cache_, identity);
+  if (is_new && tell_of_building_)
+    std::exchange(tell_of_building_,
+                  {})({info_.name, 0, "building kernels; the driver keeps them for later runs"});
+  cl::Program program(context_, std::string(source));
+  program.build({device_}, all_options.c_str());
+  ++programs_built_;
+  if (is_new) note(kernel_cache_, identity);
+  return program;
 }
 
 Device::Program& Device::program_of(std::string_view source, const std::string& options) {

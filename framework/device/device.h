@@ -5,12 +5,15 @@
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #include <CL/opencl.hpp>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "framework/core/log.h"
 
 namespace pliant {
 
@@ -41,6 +44,8 @@ class Device {
   Device& operator=(const Device&) = delete;
 
   static std::vector<DeviceInfo> list();
+  /// Why the list is empty, and what to do about it.
+  static std::string why_none();
   const DeviceInfo& info() const { return info_; }
 
   const cl::Context& context() const { return context_; }
@@ -54,6 +59,12 @@ class Device {
   /// `-DWIDTH=<width()>` is always defined. Throws DeviceError with the build log when the source does not
   /// compile.
   cl::Kernel kernel(std::string_view source, const std::string& name, const std::string& options = "");
+  /// Programs made since the device was opened: a computation during which this grows has waited for the
+  /// compiler, or for the driver to load what it kept on disk.
+  int programs_built() const { return programs_built_; }
+  /// `tell` is called once, before the first program that no run is known to have built here: those take
+  /// seconds each, while drivers keep what they have built.
+  void tell_of_building(ProgressSink tell) { tell_of_building_ = std::move(tell); }
 
   /// Enqueues a kernel over a one-dimensional range. `local` = 0 leaves the group size to the driver;
   /// otherwise `global` is rounded up to a multiple of it.
@@ -114,9 +125,12 @@ class Device {
   cl::Buffer make_buffer(std::size_t bytes, void* data = nullptr) const;
   void drop_unused_buffers() const;
   Program& program_of(std::string_view source, const std::string& options);
-  std::string all_options(const std::string& options) const;
+  cl::Program build(std::string_view source, const std::string& options);
 
-  std::unordered_map<std::string, Program> programs_;       // by options and source
+  std::filesystem::path kernel_cache_;
+  ProgressSink tell_of_building_;
+  std::unordered_map<std::string, Program> programs_;  // by options and source
+  int programs_built_ = 0;
   mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: what allocate() gave out
   bool measuring_ = false;
   struct Record {

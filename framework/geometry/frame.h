@@ -29,4 +29,11 @@ struct FramePair {
   std::vector<std::string> warnings = {};
 };
 
+/// Throws DataError, which names the pair and both sizes, unless camera, images and truth fit together: every
+/// image that is there has the camera's size, depth is there, focal lengths are positive and the principal
+/// point is finite. What the depths are does not matter: see is_depth.
+void check(const FramePair& pair);
+/// The same without a look at the target.
+void check_source(const FramePair& pair);
+
 }  // namespace pliant

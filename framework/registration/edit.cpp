@@ -170,6 +170,7 @@ EditResult::HandleFit EditResult::all_handles() const {
 }
 
 Surface source_surface(const FramePair& pair) {
+  check_source(pair);
   Surface surface = make_surface(make_surface_map(pair.source, pair.camera), pair.source.color);
   if (surface.points.empty()) throw DataError(pair.name + ": the source has no point");
   return surface;

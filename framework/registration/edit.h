@@ -53,7 +53,7 @@ EditResult edit_surface(const FramePair& pair, const NamedHandles& handles, cons
 std::unique_ptr<Problem> make_edit_problem(const FramePair& pair, const NamedHandles& handles,
                                            const Method& method, Device& device);
 
-/// The points of the source of a pair. Throws DataError when there is none.
+/// The points of the source of a pair. Throws DataError when there is none, and as check_source does.
 Surface source_surface(const FramePair& pair);
 
 }  // namespace pliant

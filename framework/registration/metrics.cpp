@@ -80,6 +80,7 @@ struct Evaluation::Index {
 
 Evaluation::Evaluation(const FramePair& pair, const Surface& source, SurfaceMap target)
     : camera_(pair.camera), target_(std::move(target)), index_(std::make_unique<Index>(target_.points)) {
+  check(pair);
   if (index_->tree == nullptr) throw DataError(pair.name + ": the target has no point to measure against");
   if (pair.scene_flow.empty()) return;
   for (std::size_t i = 0; i < source.size(); ++i) {

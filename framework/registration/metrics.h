@@ -34,7 +34,7 @@ struct Metrics {
 class Evaluation {
  public:
   /// `source`: the source as given (its pixels look up the truth); `target`: the target's valid points.
-  /// Throws DataError when the target has none.
+  /// Throws DataError when the target has none, and as `check` of a pair does.
   Evaluation(const FramePair& pair, const Surface& source, SurfaceMap target);
   ~Evaluation();
   Evaluation(const Evaluation&) = delete;

@@ -1,6 +1,5 @@
 #include "framework/registration/scene.h"
 
-#include <stdexcept>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -26,8 +25,6 @@ Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const 
   surface.pixels.reserve(pixels.size());
   for (const int pixel : pixels) surface.pixels.emplace_back(pixel % width, pixel / width);
   if (frame.color.empty()) return surface;
-  if (frame.color.width() != width || frame.color.height() != frame.depth.height())
-    throw std::invalid_argument("colour and depth differ in size");
   surface.colors.reserve(pixels.size());
   for (const int pixel : pixels) surface.colors.push_back(frame.color.data()[pixel]);
   return surface;
@@ -37,6 +34,7 @@ Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const 
 
 Scene make_scene(const FramePair& pair, const Method& method, Device& device, std::uint64_t seed,
                  StageTimes& times) {
+  check(pair);
   // Enqueued first: the device makes the surfaces while the host finds the alignment.
   const DepthMap depth = make_depth_map(pair.source, times);
   const auto filtered = method.filter->filter(device, depth);

@@ -26,8 +26,8 @@ struct Scene {
   std::optional<PointSet> unfiltered;
 };
 
-/// `pair` must outlive the scene. Adds to `times` what the host spent on each stage. Throws DataError when
-/// the source has no point.
+/// `pair` must outlive the scene. Adds to `times` what the host spent on each stage. Throws DataError as
+/// `check` of a pair does, and when the source has no point.
 Scene make_scene(const FramePair& pair, const Method& method, Device& device, std::uint64_t seed,
                  StageTimes& times);
 

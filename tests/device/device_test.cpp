@@ -84,6 +84,18 @@ TEST(Device, KernelsSeeTheWidthAndTheirOptions) {
   EXPECT_THAT(told.host(), testing::ElementsAre(device.width(), 43)) << "other options, another program";
 }
 
+TEST(Device, CountsTheProgramsItBuilt) {
+  Device device;
+  EXPECT_EQ(device.programs_built(), 0);
+  device.kernel(kScale, "scale");
+  device.kernel(kScale, "scale");
+  EXPECT_EQ(device.programs_built(), 1) << "made once and kept";
+  device.kernel(kScale, "scale", "-DANSWER=42");
+  EXPECT_EQ(device.programs_built(), 2) << "other options, another program";
+  EXPECT_THROW(device.kernel("kernel void broken( {", "broken"), DeviceError);
+  EXPECT_EQ(device.programs_built(), 2);
+}
+
 TEST(Device, RoundsTheRangeUpToWholeGroups) {
   Device device;
   auto kernel = device.kernel(

@@ -1,6 +1,7 @@
 // Everything that can be wrong with what the program is given: a line that names the file and the reason,
 // and an exit code that scripts can tell apart.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -16,6 +17,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr int width = 160;
 constexpr int height = 120;
@@ -185,6 +187,19 @@ TEST_F(BadInputTest, NoOpenClDevice) {
   EXPECT_EQ(run.exit_code, 4);
   EXPECT_THAT(run.errors(), ElementsAre(HasSubstr("no OpenCL device")));
   EXPECT_EQ(call("devices", "OCL_ICD_VENDORS=/nonexistent").exit_code, 4);
+}
+
+TEST_F(BadInputTest, NoFolderForKernels) {
+  write("file", "no folder");
+  const std::string homeless = "env -u POCL_CACHE_DIR -u XDG_CACHE_HOME HOME=file TMPDIR=";
+  EXPECT_EQ(call("devices", homeless + "'" + file("") + "'").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(file("pliant-" + std::to_string(geteuid()))));
+  for (const char* command : {"devices", "run pair.yaml --out out"}) {
+    const ProgramRun run = call(command, homeless + "file");
+    EXPECT_EQ(run.exit_code, 4);
+    EXPECT_THAT(run.errors(), ElementsAre(AllOf(HasSubstr("file/.cache/pocl/kcache"),
+                                                HasSubstr("set POCL_CACHE_DIR"), Not(HasSubstr("install")))));
+  }
 }
 
 TEST_F(BadInputTest, NoSuchDevice) {

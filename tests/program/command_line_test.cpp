@@ -12,6 +12,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
+using ::testing::Not;
 
 class CommandLineTest : public ProgramTest {
  protected:
@@ -61,6 +62,15 @@ TEST_F(CommandLineTest, SetMayBeRepeatedAndStandAnywhere) {
   const auto experiment = nlohmann::json::parse(text_of("made/result.json"))["experiment"];
   EXPECT_EQ(experiment["seed"], 5);
   EXPECT_EQ(experiment["sampler"]["step"], 5);
+}
+
+TEST_F(CommandLineTest, OnlyTheFirstRunSaysThatItBuildsKernels) {
+  const auto run = [&] { return call("run small.yaml --out made", "POCL_CACHE_DIR=kernels").err; };
+  const std::string first = run();
+  const auto told = first.find("building kernels");
+  ASSERT_NE(told, std::string::npos) << first;
+  EXPECT_EQ(first.find("building kernels", told + 1), std::string::npos) << first;
+  EXPECT_THAT(run(), Not(HasSubstr("building kernels")));
 }
 
 TEST_F(CommandLineTest, CheckSaysGoodAndRunsNothing) {

@@ -13,7 +13,7 @@ struct ProgramRun {
   std::string out;
   std::string err;
 
-  /// The lines on stderr.
+  /// The lines on stderr, but for what only the first run has to say: that it builds kernels.
   std::vector<std::string> errors() const;
 };
 

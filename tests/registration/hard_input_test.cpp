@@ -9,6 +9,7 @@
 
 #include "framework/core/error.h"
 #include "framework/geometry/pixel_index.h"
+#include "framework/registration/edit.h"
 #include "framework/registration/metrics.h"
 #include "framework/registration/registration.h"
 #include "tests/experiments/experiment_files.h"
@@ -16,10 +17,13 @@
 namespace pliant::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
 
 using Sets = std::vector<std::string>;
 
@@ -88,6 +92,23 @@ float mean_shift(const RegistrationResult& result, const Box& box) {
     ++count;
   }
   return sum / static_cast<float>(count);
+}
+
+// --- pairs that do not fit together ---
+
+TEST_F(HardInputTest, APairWhoseCameraIsNotTheImagesIsRefused) {
+  FramePair pair = sheet();
+  pair.camera.width *= 2;
+  const Method method = method_of();
+  const Handle handle;
+  const auto refuses = [&](const auto& use) {
+    EXPECT_THAT(use, ThrowsMessage<DataError>(AllOf(StartsWith(pair.name + ": "), HasSubstr("pixels"))));
+  };
+  refuses([&] { register_pair(pair, method, device_, 1); });
+  refuses([&] { freeze_problem(pair, method, device_, 1); });
+  refuses([&] { edit_surface(pair, {{"handle", handle}}, method, device_); });
+  refuses([&] { make_edit_problem(pair, {{"handle", handle}}, method, device_); });
+  refuses([&] { source_surface(pair); });
 }
 
 // --- parts and nodes ---

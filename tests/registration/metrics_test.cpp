@@ -48,7 +48,10 @@ Surface surface_of(const Points& points) {
   return surface;
 }
 
-FramePair pair_without_truth() { return {"pair", camera, {}, {}, {}}; }
+FramePair pair_without_truth() {
+  const RgbdFrame frame{DepthImage(9, 7), {}, {}};
+  return {"pair", camera, frame, frame, {}};
+}
 
 Evaluation against_wall(const Points& source) {
   return Evaluation(pair_without_truth(), surface_of(source), wall_with_hole());
@@ -143,6 +146,16 @@ TEST(Metrics, NothingCoveredGivesZerosNotNaN) {
 TEST(Metrics, NeedsATarget) {
   EXPECT_THAT([] { Evaluation(pair_without_truth(), surface_of({}), empty_map()); },
               testing::ThrowsMessage<DataError>(testing::HasSubstr("pair: the target has no point")));
+}
+
+TEST(Metrics, NeedsAPairThatFitsTogether) {
+  FramePair pair = pair_without_truth();
+  pair.scene_flow = Image<Eigen::Vector3f>(4, 3, Eigen::Vector3f::Zero());
+  EXPECT_THAT(
+      [&] {
+        Evaluation(pair, surface_of({{0, 0, 1000}}), wall_with_hole());
+      },
+      testing::ThrowsMessage<DataError>(testing::HasSubstr("pair: the scene flow is 4 x 3 pixels")));
 }
 
 TEST(EndPointError, ComparesWithTheTruePosition) {
