@@ -114,6 +114,7 @@ cl::Kernel Device::kernel(std::string_view source, const std::string& name, cons
       cl::Program fresh(context_, std::string(source));
       fresh.build({device_}, all_options(options).c_str());
       program = fresh;
+      ++programs_built_;
     }
     return kernel = cl::Kernel(program, name.c_str());
   } catch (const cl::BuildError& error) {

@@ -55,6 +55,9 @@ class Device {
   /// compile.
   cl::Kernel kernel(std::string_view source, const std::string& name, const std::string& options = "");
 
+  /// How many programs kernel() has built so far: a time in which it rises is not that of a later run.
+  int programs_built() const { return programs_built_; }
+
   /// Enqueues a kernel over a one-dimensional range. `local` = 0 leaves the group size to the driver;
   /// otherwise `global` is rounded up to a multiple of it.
   template <class... Arguments>
@@ -118,6 +121,7 @@ class Device {
 
   std::unordered_map<std::string, Program> programs_;       // by options and source
   mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: what allocate() gave out
+  int programs_built_ = 0;
   bool measuring_ = false;
   struct Record {
     std::string stage;
