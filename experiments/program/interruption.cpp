@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <thread>
 
 #include "experiments/program/output.h"
@@ -32,6 +33,7 @@ void answer_interruptions() {
   sigaddset(&signals, SIGTERM);
   if (!is_ignored(SIGHUP)) sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::atexit(ResultFolder::abandon_all);  // for libraries that end the program on their own
   std::thread([signals] {
     int signal = 0;
     if (sigwait(&signals, &signal) == 0) end_after(signal);

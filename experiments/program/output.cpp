@@ -16,10 +16,6 @@ namespace {
 /// Of the first write to standard output that failed.
 int output_error = 0;
 
-void flush_output() {
-  if (std::fflush(stdout) != 0 && output_error == 0) output_error = errno;
-}
-
 }  // namespace
 
 void secure_standard_streams() {
@@ -30,13 +26,11 @@ void secure_standard_streams() {
 }
 
 void write_output(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && output_error == 0)
-    output_error = errno;
-  flush_output();
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if ((!is_written || std::fflush(stdout) != 0) && output_error == 0) output_error = errno;
 }
 
 void check_output() {
-  flush_output();  // of what libraries wrote
   if (output_error != 0)
     throw DataError(fmt::format("standard output cannot be written: {}", std::strerror(output_error)));
 }

@@ -112,10 +112,10 @@ NearestDistances measure(const Evaluation& evaluation, RunRecord& record, const 
 
 RunRecord make_run(const ExperimentPlan::Run& run, const fs::path& folder, Workbench& workbench,
                    const ProgressSink& sink, int repeats) {
+  const RunProgress progress(sink, run.name);
   const FramePair& pair = workbench.pair(run.values);
   const Method method = make_method(run, workbench.registry());
   const auto seed = static_cast<std::uint64_t>(run.values.integer("seed"));
-  const RunProgress progress(sink, run.name);
   RunRecord record;
   record.name = run.name;
   Device& device = workbench.device(run.values);
