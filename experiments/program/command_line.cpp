@@ -5,10 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "experiments/program/commands.h"
+#include "experiments/program/output.h"
 #include "experiments/program/reproduce.h"
 #include "experiments/runner/version.h"
 #include "framework/core/error.h"
@@ -36,6 +38,7 @@ Examples:
   pliant run experiments/sheet.yaml
   pliant run experiments/sheet.yaml --set data.amplitude=30 --set solver=ceres_lm --out out/bent
   pliant run my.yaml --data ~/recordings
+  pliant run my.yaml --repeat 9       the time of a run after the first, and its spread
 
 An experiment on data of your own is a file like this one:
   extends: methods/ed.yaml
@@ -126,6 +129,10 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   auto* run = add_command(app, "run", "Registers what an experiment file describes", run_examples);
   add_set_and_data(*run, experiment);
   add_out(*run, experiment, "out/<name of the experiment>");
+  run->add_option("--repeat", experiment.repeats,
+                  "Times so many runs after one that is not timed; tells median, least and most")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
   run->callback([&] { run_command(experiment); });
 
   auto* check =
@@ -175,9 +182,15 @@ int parse(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "error: {}; see pliant {}--help\n", error.what(),
-               app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ");
+    if (error.get_exit_code() == 0) {  // --help, --version
+      std::ostringstream text;
+      app.exit(error, text);
+      write_output(text.str());
+      return 0;
+    }
+    write_message(
+        fmt::format("error: {}; see pliant {}--help\n", error.what(),
+                    app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " "));
     return bad_arguments;
   }
 }
@@ -191,15 +204,17 @@ int run_command_line(int argc, char** argv) {
   Arguments arguments;
   add_commands(app, arguments);
   try {
-    return parse(app, argc, argv);
+    const int exit_code = parse(app, argc, argv);
+    check_output();
+    return exit_code;
   } catch (const ConfigError& error) {
-    fmt::print(stderr, "{}\n", error.what());  // its lines begin with a place that editors understand
+    write_message(fmt::format("{}\n", error.what()));  // its lines begin with a place that editors understand
     return error.exit_code();
   } catch (const Error& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    write_message(fmt::format("error: {}\n", error.what()));
     return error.exit_code();
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: unforeseen: {}\n", error.what());
+    write_message(fmt::format("error: unforeseen: {}\n", error.what()));
     return 1;
   }
 }

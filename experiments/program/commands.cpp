@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "experiments/program/folders.h"
+#include "experiments/program/output.h"
 #include "experiments/program/progress_line.h"
 #include "experiments/runner/compare.h"
 #include "experiments/runner/components.h"
@@ -28,26 +29,33 @@ fs::path out_folder(const ExperimentOptions& options, const ExperimentPlan& plan
   return options.out.empty() ? fs::path("out") / plan.name : fs::path(options.out);
 }
 
+void tell_time(const std::string& run, const Timing& timing) {
+  if (timing.built_kernels)
+    print("{}: the time includes building kernels; --repeat 5 tells that of later runs\n", run);
+}
+
 void tell_end(const RunRecord& run) {
   const RegistrationResult& result = run.result;
-  fmt::print("{}: {}{} after {} outer iterations; {} with {}\n", run.name, result.termination,
-             result.reason.empty() ? "" : " (" + result.reason + ")", result.counts.outer_iterations,
-             result.solver.name, result.solver.linear_solver);
-  for (const auto& warning : result.warnings) fmt::print("{}: warning: {}\n", run.name, warning);
+  print("{}: {}{} after {} outer iterations; {} with {}\n", run.name, result.termination,
+        result.reason.empty() ? "" : " (" + result.reason + ")", result.counts.outer_iterations,
+        result.solver.name, result.solver.linear_solver);
+  for (const auto& warning : result.warnings) print("{}: warning: {}\n", run.name, warning);
+  tell_time(run.name, run.timing);
 }
 
 void tell_end(const EditRecord& run) {
   const EditResult& result = run.result;
-  fmt::print("{}: {} after {} iterations; {} with {}\n", run.name, result.solver.termination,
-             result.counts.solver_iterations, result.solver.name, result.solver.linear_solver);
-  for (const auto& warning : result.warnings) fmt::print("{}: warning: {}\n", run.name, warning);
+  print("{}: {} after {} iterations; {} with {}\n", run.name, result.solver.termination,
+        result.counts.solver_iterations, result.solver.name, result.solver.linear_solver);
+  for (const auto& warning : result.warnings) print("{}: warning: {}\n", run.name, warning);
+  tell_time(run.name, run.timing);
 }
 
 template <class Record>
 void tell(const ExperimentPlan& plan, const std::vector<Record>& runs, const fs::path& folder) {
-  fmt::print("{}\n", to_text(run_table(plan, runs)));
+  print("{}\n", to_text(run_table(plan, runs)));
   for (const auto& run : runs) tell_end(run);
-  fmt::print("Results are in {}\n", folder.string());
+  print("Results are in {}\n", folder.string());
 }
 
 }  // namespace
@@ -61,15 +69,15 @@ void run_command(const ExperimentOptions& options) {
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
   const fs::path folder = out_folder(options, plan);
   Workbench workbench(registry, show_line);
+  ProgressLine line;
   if (plan.has_handles()) {
-    tell(plan, edit_experiment(plan, folder, workbench), folder);
+    const auto runs = edit_experiment(plan, folder, workbench, line.sink(), options.repeats);
+    line.clear();
+    tell(plan, runs, folder);
     return;
   }
-  std::vector<RunRecord> runs;
-  {
-    ProgressLine line;
-    runs = run_experiment(plan, folder, workbench, line.sink());
-  }
+  const auto runs = run_experiment(plan, folder, workbench, line.sink(), options.repeats);
+  line.clear();
   tell(plan, runs, folder);
   check_ends(plan, runs);
 }
@@ -81,11 +89,11 @@ void check_command(const ExperimentOptions& options) {
   check_experiment(plan, workbench);
   for (const auto& run : plan.runs)
     for (const auto& warning : workbench.pair(run.values).warnings)
-      fmt::print("{}: warning: {}\n", run.name, warning);
-  fmt::print("{}: good; it makes {} run{}:", options.file, plan.runs.size(),
+      print("{}: warning: {}\n", run.name, warning);
+  print("{}: good; it makes {} run{}:", options.file, plan.runs.size(),
              plan.runs.size() == 1 ? "" : "s");
-  for (const auto& run : plan.runs) fmt::print(" {}", run.name);
-  fmt::print("\n");
+  for (const auto& run : plan.runs) print(" {}", run.name);
+  print("\n");
 }
 
 void compare_command(const ExperimentOptions& options) {
@@ -93,24 +101,22 @@ void compare_command(const ExperimentOptions& options) {
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
   const fs::path folder = out_folder(options, plan);
   Workbench workbench(registry, show_line);
-  std::vector<RunComparison> comparisons;
-  {
-    ProgressLine line;
-    comparisons = compare_solvers(plan, folder, workbench, line.sink());
-  }
-  for (const auto& table : compare_tables(comparisons)) fmt::print("{}\n", to_text(table));
-  fmt::print("Results are in {}\n", folder.string());
+  ProgressLine line;
+  const auto comparisons = compare_solvers(plan, folder, workbench, line.sink());
+  line.clear();
+  for (const auto& table : compare_tables(comparisons)) print("{}\n", to_text(table));
+  print("Results are in {}\n", folder.string());
 }
 
 void components_command(const std::string& kind, const std::string& name, bool as_json) {
   const Registry registry = all_components();
   if (as_json) {
-    fmt::print("{}\n", json_schema(experiment_table(), registry).dump(2));
+    print("{}\n", json_schema(experiment_table(), registry).dump(2));
     return;
   }
   const std::string list = list_components(registry, kind);
   if (name.empty()) {
-    fmt::print("{}", list);
+    print("{}", list);
     return;
   }
   const ComponentInfo* info = registry.find(kind, name);
@@ -120,16 +126,16 @@ void components_command(const std::string& kind, const std::string& name, bool a
     throw ConfigError(fmt::format("unknown {} '{}'; expected one of {}{}", kind, name, fmt::join(names, ", "),
                                   suggestion(name, names)));
   }
-  fmt::print("{}", describe(*info));
+  print("{}", describe(*info));
 }
 
 void devices_command() {
   const auto devices = Device::list();
   if (devices.empty()) throw DeviceError(Device::why_none());
   for (const auto& device : devices)
-    fmt::print("{}\n  {}, {} compute units, {} MiB\n  {}; {}; driver {}\n", device.name,
-               device.is_gpu ? "GPU" : "CPU", device.compute_units, device.memory_bytes >> 20,
-               device.platform, device.version, device.driver);
+    print("{}\n  {}, {} compute units, {} MiB\n  {}; {}; driver {}\n", device.name,
+          device.is_gpu ? "GPU" : "CPU", device.compute_units, device.memory_bytes >> 20, device.platform,
+          device.version, device.driver);
 }
 
 }  // namespace pliant

@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "experiments/program/output.h"
 
 namespace pliant {
 namespace {
@@ -23,8 +24,8 @@ std::size_t terminal_width() {
 
 ProgressLine::ProgressLine() : is_terminal_(isatty(STDERR_FILENO) != 0) {}
 
-ProgressLine::~ProgressLine() {
-  if (is_terminal_) fmt::print(stderr, "\r\033[K");
+void ProgressLine::clear() const {
+  if (is_terminal_) write_message("\r\033[K");
 }
 
 ProgressSink ProgressLine::sink() {
@@ -39,13 +40,13 @@ void ProgressLine::show(const Progress& progress) const {
   const auto filled = static_cast<int>(std::lround(bar_width * std::clamp(progress.done, 0.0, 1.0)));
   const std::string line = fmt::format("[{}{}] {}: {}", std::string(filled, '#'),
                                        std::string(bar_width - filled, '.'), progress.what, progress.message);
-  fmt::print(stderr, "\r\033[K{}", line.substr(0, terminal_width() - 1));
-  std::fflush(stderr);
+  write_message("\r\033[K" + line.substr(0, terminal_width() - 1));
 }
 
 void show_line(const Progress& progress) {
   const bool may_hold_a_bar = isatty(STDERR_FILENO) != 0;
-  fmt::print(stderr, "{}{}: {}\n", may_hold_a_bar ? "\r\033[K" : "", progress.what, progress.message);
+  write_message(
+      fmt::format("{}{}: {}\n", may_hold_a_bar ? "\r\033[K" : "", progress.what, progress.message));
 }
 
 }  // namespace pliant

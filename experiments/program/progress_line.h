@@ -10,8 +10,10 @@ class ProgressLine {
   ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine() { clear(); }
+
   /// Leaves the terminal's line empty.
-  ~ProgressLine();
+  void clear() const;
 
   /// Shows into this object, which must outlive it.
   ProgressSink sink();

@@ -4,21 +4,26 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "experiments/program/commands.h"
 #include "experiments/program/folders.h"
+#include "experiments/program/output.h"
 #include "experiments/program/progress_line.h"
 #include "experiments/runner/compare.h"
 #include "experiments/runner/components.h"
 #include "experiments/runner/runner.h"
+#include "framework/core/error.h"
 #include "framework/io/file.h"
 
 namespace pliant {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* page_name = "index.html";
 
 /// An experiment to be reproduced.
 struct Item {
@@ -41,10 +46,31 @@ class Reproduction {
     register_everything(registry_);
   }
 
-  void make(const Item& item) {
-    const auto folders = data_folders(data_);
-    if (*item.needs != '\0' && !find_data(folders, item.needs)) {
-      skip(item, folders);
+  /// Makes all; gives the path of the page over everything.
+  fs::path make() {
+    for (const auto& item : items) plan(item);
+    ResultFolder result(out_, files_, inputs_);
+    try {
+      make_all(result.unfinished());
+    } catch (const Error& error) {
+      if (tables_.empty()) throw;
+      throw Error(
+          fmt::format("{}; the experiments before it are kept in {}", error.what(), result.keep().string()),
+          error.exit_code());
+    }
+    result.commit();
+    return fs::absolute(out_ / page_name).lexically_normal();
+  }
+
+ private:
+  struct Planned {
+    const Item& item;
+    std::optional<ExperimentPlan> plan;  ///< none: its data was not found
+  };
+
+  void plan(const Item& item) {
+    if (*item.needs != '\0' && !find_data(data_folders(data_), item.needs)) {
+      planned_.push_back({item, {}});
       return;
     }
     ExperimentOptions options;
@@ -52,47 +78,53 @@ class Reproduction {
     options.data = data_;
     ExperimentPlan plan = plan_experiment(config_source(options), registry_);
     if (quick_) plan.keep_quick_runs();
-    for (auto& table : item.is_comparison ? compare(item, plan) : run(item, plan)) {
-      fmt::print("{}\n", to_text(table));
-      tables_.push_back(std::move(table));
-    }
+    for (const auto& file : item.is_comparison ? compare_files() : result_files(plan, registry_))
+      files_.push_back(item.name / file);
+    inputs_.insert(inputs_.end(), plan.experiment.files.begin(), plan.experiment.files.end());
+    planned_.push_back({item, std::move(plan)});
   }
 
-  /// The page over everything; gives its path.
-  fs::path finish() const {
-    const fs::path file = out_ / "index.html";
+  void make_all(const fs::path& folder) {
+    for (const auto& [item, plan] : planned_) {
+      if (!plan) {
+        skip(item);
+        continue;
+      }
+      for (auto& table : item.is_comparison ? compare(item, *plan, folder) : run(item, *plan, folder)) {
+        print("{}\n", to_text(table));
+        tables_.push_back(std::move(table));
+      }
+    }
     const std::string page = make_overview_page(
         quick_ ? "Reproduction, quick form" : "Reproduction",
         "Distances in mm before and after; the first name of each row leads to its page.", tables_);
-    write_file(file.string(), {page.begin(), page.end()});
-    return fs::absolute(file).lexically_normal();
+    write_file((folder / page_name).string(), {page.begin(), page.end()});
   }
 
- private:
-  std::vector<Table> run(const Item& item, const ExperimentPlan& plan) {
-    if (plan.has_handles())
-      return {run_table(plan, edit_experiment(plan, out_ / item.name, workbench_), item.name)};
+  std::vector<Table> run(const Item& item, const ExperimentPlan& plan, const fs::path& folder) {
     ProgressLine line;
-    const auto runs = run_experiment(plan, out_ / item.name, workbench_, line.sink());
+    if (plan.has_handles())
+      return {run_table(plan, edit_experiment(plan, folder / item.name, workbench_, line.sink()), item.name)};
+    const auto runs = run_experiment(plan, folder / item.name, workbench_, line.sink());
     check_ends(plan, runs);
     return {run_table(plan, runs, item.name)};
   }
 
-  std::vector<Table> compare(const Item& item, const ExperimentPlan& plan) {
+  std::vector<Table> compare(const Item& item, const ExperimentPlan& plan, const fs::path& folder) {
     ProgressLine line;
-    auto tables = compare_tables(compare_solvers(plan, out_ / item.name, workbench_, line.sink()));
+    auto tables = compare_tables(compare_solvers(plan, folder / item.name, workbench_, line.sink()));
     for (auto& table : tables) {
       for (auto& row : table.rows) row.link = std::string(item.name) + "/index.html";
     }
     return tables;
   }
 
-  void skip(const Item& item, const std::vector<fs::path>& folders) {
+  void skip(const Item& item) {
     std::string looked;
-    for (const auto& folder : folders)
+    for (const auto& folder : data_folders(data_))
       looked += (looked.empty() ? "" : ", ") + (folder / item.needs).lexically_normal().string();
     const std::string why = fmt::format("SKIPPED: its data was not found; looked for {}", looked);
-    fmt::print("{}\n  {}\n  (give the folder with --data or the variable PLIANT_DATA)\n\n", item.name, why);
+    print("{}\n  {}\n  (give the folder with --data or the variable PLIANT_DATA)\n\n", item.name, why);
     tables_.push_back({item.name, {"skipped"}, {{{why}}}});
   }
 
@@ -101,6 +133,9 @@ class Reproduction {
   std::string data_;
   Registry registry_;
   Workbench workbench_;
+  std::vector<Planned> planned_;
+  ResultFolder::Files files_{page_name};
+  ResultFolder::Files inputs_;
   std::vector<Table> tables_;
 };
 
@@ -108,8 +143,7 @@ class Reproduction {
 
 void reproduce_command(bool quick, const std::string& out, const std::string& data) {
   Reproduction reproduction(quick, out.empty() ? fs::path("out/reproduce") : fs::path(out), data);
-  for (const auto& item : items) reproduction.make(item);
-  fmt::print("The report is {}\n", reproduction.finish().string());
+  print("The report is {}\n", reproduction.make().string());
 }
 
 }  // namespace pliant

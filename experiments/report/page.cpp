@@ -162,6 +162,7 @@ std::string picture_grid(const std::vector<Picture>& pictures) {
 
 class PageReport : public Report {
  public:
+  std::vector<std::string> files() const override { return {"index.html"}; }
   std::vector<std::filesystem::path> write(const ReportInput& input,
                                            const std::filesystem::path& folder) const override {
     return write(make_page(input), folder);

@@ -103,20 +103,18 @@ std::vector<Picture> draw_depths(const ReportInput& input) {
 
 std::vector<Picture> draw_errors(const ReportInput& input) {
   const RunRecord& run = input.run;
-  const std::vector<float> aligned = input.evaluation.nearest(run.result.aligned_points);
+  const std::vector<float>& aligned = input.nearest.aligned;
   const ColorScale scale = error_scale(aligned);
   std::vector<Picture> pictures;
   const auto add = [&](const char* file, const char* caption, const std::vector<float>& errors,
                        const Metrics& metrics) {
     pictures.push_back(draw(file, caption, at_source_pixels(input, errors), scale, spread(metrics)));
   };
-  add("error_initial.png", "Error before registration", input.evaluation.nearest(run.result.source.points),
-      run.initial);
+  add("error_initial.png", "Error before registration", input.nearest.initial, run.initial);
   if (run.result.aligned_points != run.result.source.points) {
     add("error_aligned.png", "Error after the initial alignment", aligned, run.aligned);
   }
-  add("error_final.png", "Error after registration", input.evaluation.nearest(run.result.points),
-      run.metrics);
+  add("error_final.png", "Error after registration", input.nearest.final, run.metrics);
   return pictures;
 }
 
@@ -175,6 +173,10 @@ Picture draw_motion(const EditInput& input) {
 
 class PicturesReport : public Report {
  public:
+  std::vector<std::string> files() const override {
+    return {"depth_source.png",  "depth_target.png", "depth_registered.png", "error_initial.png",
+            "error_aligned.png", "error_final.png",  "motion.png",           "graph.png"};
+  }
   std::vector<std::filesystem::path> write(const ReportInput& input,
                                            const std::filesystem::path& folder) const override {
     return write(draw_pictures(input), folder);

@@ -27,13 +27,15 @@ class SurfacesReport : public Report {
  public:
   explicit SurfacesReport(float depth_step) : depth_step_(depth_step) {}
 
+  std::vector<std::string> files() const override { return {"source.ply", "target.ply", "registered.ply"}; }
+
   std::vector<std::filesystem::path> write(const ReportInput& input,
                                            const std::filesystem::path& folder) const override {
     const RegistrationResult& result = input.run.result;
     const std::vector<Eigen::Vector3i> triangles = triangulate(result.source, depth_step_);
-    PlySurface source{result.source, input.evaluation.nearest(result.source.points), triangles};
+    PlySurface source{result.source, input.nearest.initial, triangles};
 
-    PlySurface registered{result.source, input.evaluation.nearest(result.points), triangles};
+    PlySurface registered{result.source, input.nearest.final, triangles};
     registered.surface.points = result.points;
     registered.surface.normals = result.normals;
 

@@ -169,14 +169,18 @@ void write_results(const ExperimentPlan& plan, const std::filesystem::path& fold
 
 }  // namespace
 
+ResultFolder::Files compare_files() { return {"experiment.yaml", "compare.json", "index.html"}; }
+
 std::vector<RunComparison> compare_solvers(const ExperimentPlan& plan, const std::filesystem::path& folder,
                                            Workbench& workbench, const ProgressSink& progress) {
   if (plan.experiment.values.sections("solvers").empty())
     throw ConfigError(plan.name + ": there is nothing to compare; expected solvers under the key 'solvers'");
-  prepare_folder(folder, plan);
+  ResultFolder result(folder, compare_files(), plan.experiment.files);
+  write_experiment(result.unfinished(), plan);
   std::vector<RunComparison> comparisons;
   for (const auto& run : plan.runs) comparisons.push_back(compare_run(run, workbench, progress));
-  write_results(plan, folder, workbench.device(plan.experiment.values).info(), comparisons);
+  write_results(plan, result.unfinished(), workbench.device(plan.experiment.values).info(), comparisons);
+  result.commit();
   return comparisons;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/runner/experiment.h"
+#include "experiments/runner/result_folder.h"
 #include "experiments/runner/table.h"
 #include "experiments/runner/workbench.h"
 #include "framework/core/log.h"
@@ -32,6 +33,9 @@ struct RunComparison {
   int unknowns = 0;
   std::vector<SolverTrial> trials;
 };
+
+/// The names of the files that compare_solvers writes.
+ResultFolder::Files compare_files();
 
 /// Freezes the first problem of each run, lets every solver of `solvers` minimise an identical one from the
 /// same start, and writes compare.json, index.html and experiment.yaml into `folder`. Throws ConfigError

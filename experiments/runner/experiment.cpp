@@ -32,14 +32,14 @@ bool is_of_name(unsigned char letter) {
 }
 
 /// Results are kept in folders of these names, so they must be fit for one.
-void check_name(const std::string& name, const std::string& file, const std::string& what) {
+void check_name(const std::string& name, const std::string& place, const std::string& what) {
   const bool is_good =
       !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), is_of_name);
   if (is_good) return;
   throw ConfigError(
       fmt::format("{}: {} '{}' cannot name a folder; expected letters, digits, spaces and the signs "
                   "_ - . + = , ( ) [ ] @ ~ !",
-                  file, what, name));
+                  place, what, name));
 }
 
 /// The name that a file gives: what a folder cannot be named with, or JSON cannot hold, becomes "_".
@@ -52,6 +52,20 @@ std::string name_of(const std::filesystem::path& file) {
   }
   if (name.front() == '.') name.front() = '_';
   return name;
+}
+
+/// The folder of a run lies beside these files of the whole result. Throws with a line for each run.
+void check_run_names(const Parameters::Sections& runs) {
+  std::string problems;
+  for (const auto& [name, values] : runs) {
+    check_name(name, values.place(), "the run's name");
+    if (std::find(files_beside_runs.begin(), files_beside_runs.end(), name) == files_beside_runs.end())
+      continue;
+    problems +=
+        fmt::format("{}{}: a run cannot be called '{}', as a file of the result is; expected another name",
+                    problems.empty() ? "" : "\n", values.place(), name);
+  }
+  if (!problems.empty()) throw ConfigError(problems);
 }
 
 void check_quick(const ExperimentPlan& plan, const std::string& file) {
@@ -123,10 +137,9 @@ ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& regis
   name_experiment(plan, source);
   const std::string file = source.file.string();
   check_name(plan.name, file, "the experiment's name");
-  for (const auto& [name, values] : plan.experiment.values.sections("runs")) {
-    check_name(name, file, "the run's name");
+  check_run_names(plan.experiment.values.sections("runs"));
+  for (const auto& [name, values] : plan.experiment.values.sections("runs"))
     plan.runs.push_back({name, values, file + ", run " + name});
-  }
   if (plan.runs.empty()) plan.runs.push_back({plan.name, plan.experiment.values, file});
   check_quick(plan, file);
   check_handles(plan);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,9 @@ namespace pliant {
 
 /// The keys of an experiment file.
 ParameterTable experiment_table();
+
+/// The files that stand beside the folders of several runs, in results of every kind.
+inline constexpr std::array files_beside_runs{"experiment.yaml", "result.json", "compare.json", "index.html"};
 
 /// A checked experiment and the registrations, or the edits by handles, that it asks for.
 struct ExperimentPlan {

@@ -63,6 +63,14 @@ ordered_json time_json(double total, const StageTimes& stages) {
   return times;
 }
 
+ordered_json timing_json(double median, const Timing& timing) {
+  return {{"repeats", timing.repeats},
+          {"median_ms", median},
+          {"min_ms", timing.min_ms},
+          {"max_ms", timing.max_ms},
+          {"built_kernels", timing.built_kernels}};
+}
+
 ordered_json solver_json(const RegistrationResult::SolverRecord& solver) {
   return {
       {"name", solver.name}, {"linear_solver", solver.linear_solver}, {"termination", solver.termination}};
@@ -124,6 +132,7 @@ ordered_json run_json(const RunRecord& run) {
           {"returned_iteration", result.returned_iteration},
           {"energy", energy_json(result.energy)},
           {"time_ms", time_json(result.total_ms, result.time_ms)},
+          {"timing", timing_json(result.total_ms, run.timing)},
           {"solver", solver_json(result.solver)}};
 }
 
@@ -146,6 +155,7 @@ ordered_json run_json(const EditRecord& run) {
           {"handles", handles},
           {"energy", energy_json(result.energy)},
           {"time_ms", time_json(result.total_ms, result.time_ms)},
+          {"timing", timing_json(result.total_ms, run.timing)},
           {"solver", solver_json(result.solver)}};
 }
 

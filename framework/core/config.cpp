@@ -62,11 +62,11 @@ class FileLoader {
   /// Empty when the file or one beneath it cannot be used; why is then among the errors.
   std::optional<ConfigNode> load(const fs::path& file) {
     const auto origin = std::make_shared<const ConfigOrigin>(
-        ConfigOrigin{file.string(), fs::absolute(file).parent_path(), true, files_++});
+        ConfigOrigin{file.string(), fs::absolute(file).parent_path(), true, static_cast<int>(files_.size())});
     return load(file, origin, {origin, 0, 0}, "");
   }
 
-  int files() const { return files_; }
+  const std::vector<fs::path>& files() const { return files_; }
 
  private:
   /// Problems of the file as a whole are told at `named`, where it is named, and begin with `prefix`.
@@ -86,7 +86,8 @@ class FileLoader {
                                   "; expected the keys of an experiment");
       return {};
     }
-    chain_.push_back({origin->name, canonical_name(file)});
+    files_.push_back(canonical_name(file));
+    chain_.push_back({origin->name, files_.back()});
     auto whole = extended(std::move(*tree));
     chain_.pop_back();
     return whole;
@@ -118,7 +119,7 @@ class FileLoader {
     const fs::path shown =
         file == beside ? (fs::path(here.name).parent_path() / value.text).lexically_normal() : file;
     const auto origin = std::make_shared<const ConfigOrigin>(
-        ConfigOrigin{shown.string(), file.parent_path(), true, files_++});
+        ConfigOrigin{shown.string(), file.parent_path(), true, static_cast<int>(files_.size())});
     return load(file, origin, value.mark, "cannot extend " + in_quotes(file.string()) + ": ");
   }
 
@@ -152,7 +153,7 @@ class FileLoader {
   std::vector<fs::path> base_folders_;
   ConfigErrors& errors_;
   std::vector<Link> chain_;
-  int files_ = 0;
+  std::vector<fs::path> files_;  ///< that were read
 };
 
 /// The keys of "a.b.c"; empty when one of them is.
@@ -264,11 +265,13 @@ Experiment load_experiment(const ConfigSource& source, const ParameterTable& roo
   FileLoader loader(overlay, source.base_folders, errors);
   auto tree = loader.load(source.file);
   if (!tree) errors.throw_if_any();
-  lay_sets_over(*tree, source.sets, loader.files(), overlay, errors);
+  lay_sets_over(*tree, source.sets, static_cast<int>(loader.files().size()), overlay, errors);
   ConfigResolver resolver(root, registry, source.data_folders, errors);
   ResolvedSection resolved = resolver.experiment(*tree);
   errors.throw_if_any();
-  return {std::move(resolved.values), std::move(resolved.tree)};
+  std::vector<fs::path> files = loader.files();
+  files.insert(files.end(), resolver.files().begin(), resolver.files().end());
+  return {std::move(resolved.values), std::move(resolved.tree), std::move(files)};
 }
 
 }  // namespace pliant

@@ -33,6 +33,8 @@ struct Experiment {
   Parameters values;
   /// The same as a tree of typed values, with an override as the part that was given.
   nlohmann::ordered_json tree;
+  /// All files that it was read from or names; absolute.
+  std::vector<std::filesystem::path> files = {};
 
   /// The whole experiment as a file that stands alone; it loads again to the same values.
   std::string to_yaml() const;

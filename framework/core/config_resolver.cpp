@@ -294,7 +294,10 @@ ConfigResolver::MaybeResolved ConfigResolver::file(const Parameter& row, const C
   for (const auto& candidate : tried) {
     std::error_code error;
     const std::string absolute = fs::absolute(candidate).lexically_normal().string();
-    if (fs::exists(absolute, error)) return Resolved{{row.name(), absolute}, absolute};
+    if (fs::exists(absolute, error)) {
+      files_.emplace_back(absolute);
+      return Resolved{{row.name(), absolute}, absolute};
+    }
     looked.push_back(absolute);
   }
   errors_.add(node.mark,
@@ -403,7 +406,7 @@ ConfigResolver::MaybeResolved ConfigResolver::overrides(const Parameter& row, co
     overlay.lay_over(whole, labelled.value, {.fragments = false, .keep_places = true});
     ResolvedSection resolved = section(&whole, root_, {"", whole.mark}, "", {});
     tree[labelled.key] = given_part(resolved.tree, labelled.value);
-    sections.emplace_back(labelled.key, std::move(resolved.values));
+    sections.emplace_back(labelled.key, Parameters("", resolved.values.values(), to_string(labelled.mark)));
   }
   inside_override_ = false;
   return Resolved{{row.name(), std::move(sections)}, std::move(tree)};

@@ -29,6 +29,9 @@ class ConfigResolver {
 
   ResolvedSection experiment(const ConfigNode& tree);
 
+  /// The files that the experiment names, absolute.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
  private:
   /// What a row's key was resolved to; empty after an error, and for an optional key that is not there. A
   /// null `tree` is not written.
@@ -72,6 +75,7 @@ class ConfigResolver {
   const Registry& registry_;
   std::vector<std::filesystem::path> data_folders_;
   ConfigErrors& errors_;
+  std::vector<std::filesystem::path> files_;
   const ConfigNode* experiment_ = nullptr;
   bool inside_override_ = false;
 };

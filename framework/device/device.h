@@ -66,6 +66,9 @@ class Device {
   /// seconds each, while drivers keep what they have built.
   void tell_of_building(ProgressSink tell) { tell_of_building_ = std::move(tell); }
 
+  /// How many programs kernel() has built so far: a time in which it rises is not that of a later run.
+  int programs_built() const { return programs_built_; }
+
   /// Enqueues a kernel over a one-dimensional range. `local` = 0 leaves the group size to the driver;
   /// otherwise `global` is rounded up to a multiple of it.
   template <class... Arguments>
@@ -132,6 +135,7 @@ class Device {
   std::unordered_map<std::string, Program> programs_;  // by options and source
   int programs_built_ = 0;
   mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: what allocate() gave out
+  int programs_built_ = 0;
   bool measuring_ = false;
   struct Record {
     std::string stage;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <flann/flann.hpp>
 #include <limits>
 #include <utility>
 
@@ -48,40 +47,10 @@ double percentile_95(std::vector<float> values) {
 
 }  // namespace
 
-struct Evaluation::Index {
-  using Tree = flann::Index<flann::L2_Simple<float>>;
-
-  explicit Index(const Image<Eigen::Vector3f>& map) {
-    for (const Eigen::Vector3f& point : map.pixels()) {
-      if (is_point(point)) coordinates.insert(coordinates.end(), point.data(), point.data() + 3);
-    }
-    if (coordinates.empty()) return;
-    // A single tree searches exactly, so the answer does not depend on how it was built.
-    tree = std::make_unique<Tree>(flann::Matrix<float>(coordinates.data(), coordinates.size() / 3, 3),
-                                  flann::KDTreeSingleIndexParams());
-    tree->buildIndex();
-  }
-
-  /// Squared distance of each query (x y z in turn) to its nearest point.
-  std::vector<float> squared_distances(std::vector<float> queries) const {
-    const std::size_t count = queries.size() / 3;
-    std::vector<int> nearest(count);
-    std::vector<float> squared(count);
-    flann::Matrix<int> indices(nearest.data(), count, 1);
-    flann::Matrix<float> distances(squared.data(), count, 1);
-    tree->knnSearch(flann::Matrix<float>(queries.data(), count, 3), indices, distances, 1,
-                    flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED));
-    return squared;
-  }
-
-  std::vector<float> coordinates;  // the tree points into it
-  std::unique_ptr<Tree> tree;
-};
-
 Evaluation::Evaluation(const FramePair& pair, const Surface& source, SurfaceMap target)
-    : camera_(pair.camera), target_(std::move(target)), index_(std::make_unique<Index>(target_.points)) {
+    : camera_(pair.camera), target_(std::move(target)), nearest_(target_.points, camera_) {
   check(pair);
-  if (index_->tree == nullptr) throw DataError(pair.name + ": the target has no point to measure against");
+  if (nearest_.empty()) throw DataError(pair.name + ": the target has no point to measure against");
   if (pair.scene_flow.empty()) return;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const Eigen::Vector3f flow = pair.scene_flow(source.pixels[i].x(), source.pixels[i].y());
@@ -89,8 +58,6 @@ Evaluation::Evaluation(const FramePair& pair, const Surface& source, SurfaceMap 
     moving_.push_back(flow.norm() > moving_distance);
   }
 }
-
-Evaluation::~Evaluation() = default;
 
 std::vector<float> Evaluation::residuals(const std::vector<Eigen::Vector3f>& points) const {
   std::vector<float> distances(points.size(), unknown);
@@ -107,18 +74,9 @@ std::vector<float> Evaluation::residuals(const std::vector<Eigen::Vector3f>& poi
   return distances;
 }
 
-std::vector<float> Evaluation::nearest(const std::vector<Eigen::Vector3f>& points) const {
-  std::vector<std::size_t> finite;
-  std::vector<float> queries;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) continue;
-    finite.push_back(i);
-    queries.insert(queries.end(), points[i].data(), points[i].data() + 3);
-  }
-  const std::vector<float> squared = index_->squared_distances(std::move(queries));
-  std::vector<float> distances(points.size(), unknown);
-  for (std::size_t i = 0; i < finite.size(); ++i) distances[finite[i]] = std::sqrt(squared[i]);
-  return distances;
+std::vector<float> Evaluation::nearest(const std::vector<Eigen::Vector3f>& points,
+                                       const ShareSink& progress) const {
+  return nearest_.distances(points, progress);
 }
 
 std::vector<float> Evaluation::end_point_errors(const std::vector<Eigen::Vector3f>& points) const {
@@ -131,6 +89,11 @@ std::vector<float> Evaluation::end_point_errors(const std::vector<Eigen::Vector3
 }
 
 Metrics Evaluation::measure(const std::vector<Eigen::Vector3f>& points) const {
+  return measure(points, nearest(points));
+}
+
+Metrics Evaluation::measure(const std::vector<Eigen::Vector3f>& points,
+                            const std::vector<float>& nearest) const {
   Metrics metrics;
   const std::vector<float> landed = known(residuals(points));
   const Spread residual = spread_of(landed);
@@ -138,7 +101,7 @@ Metrics Evaluation::measure(const std::vector<Eigen::Vector3f>& points) const {
   metrics.residual_sd = residual.sd;
   if (!points.empty())
     metrics.coverage = static_cast<double>(landed.size()) / static_cast<double>(points.size());
-  const Spread near = spread_of(known(nearest(points)));
+  const Spread near = spread_of(known(nearest));
   metrics.nearest_mean = near.mean;
   metrics.nearest_sd = near.sd;
   metrics.truth = measure_truth(points);

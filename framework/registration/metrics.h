@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "framework/geometry/frame.h"
 #include "framework/geometry/surface.h"
+#include "framework/registration/nearest_points.h"
 
 namespace pliant {
 
@@ -36,28 +36,29 @@ class Evaluation {
   /// `source`: the source as given (its pixels look up the truth); `target`: the target's valid points.
   /// Throws DataError when the target has none, and as `check` of a pair does.
   Evaluation(const FramePair& pair, const Surface& source, SurfaceMap target);
-  ~Evaluation();
   Evaluation(const Evaluation&) = delete;
   Evaluation& operator=(const Evaluation&) = delete;
 
   /// `points[i]` is where source point i was moved to (mm, camera frame).
   Metrics measure(const std::vector<Eigen::Vector3f>& points) const;
+  /// The same where `nearest(points)` is known.
+  Metrics measure(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& nearest) const;
   /// Per point: distance to the target point at its pixel; NaN where there is none.
   std::vector<float> residuals(const std::vector<Eigen::Vector3f>& points) const;
   /// Per point: distance to the nearest target point.
-  std::vector<float> nearest(const std::vector<Eigen::Vector3f>& points) const;
+  std::vector<float> nearest(const std::vector<Eigen::Vector3f>& points,
+                             const ShareSink& progress = {}) const;
   /// Per point: distance to its true position; NaN where unknown; empty without truth.
   std::vector<float> end_point_errors(const std::vector<Eigen::Vector3f>& points) const;
 
  private:
   std::optional<Metrics::Truth> measure_truth(const std::vector<Eigen::Vector3f>& points) const;
 
-  struct Index;  // keeps FLANN out of this header
   Camera camera_;
   SurfaceMap target_;
+  NearestPoints nearest_;
   std::vector<Eigen::Vector3f> truth_;  // true position per source point, NaN where unknown
   std::vector<bool> moving_;
-  std::unique_ptr<Index> index_;
 };
 
 }  // namespace pliant

@@ -63,7 +63,7 @@ TEST_F(EditTest, ResultTellsOfHandlesAndOfNothingThatNeedsATarget) {
   EXPECT_EQ(result["schema"], 1);
   const ordered_json& run = result["runs"][0];
   EXPECT_THAT(keys(run), ElementsAre("name", "warnings", "counts", "metrics", "initial", "handles", "energy",
-                                     "time_ms", "solver"));
+                                     "time_ms", "timing", "solver"));
   EXPECT_THAT(keys(run["counts"]),
               ElementsAre("source_points", "nodes", "edges", "constraints", "unknowns", "solver_iterations"));
   EXPECT_THAT(keys(run["metrics"]), ElementsAre("handle_residual_mean", "handle_residual_max"));
@@ -75,9 +75,9 @@ TEST_F(EditTest, ResultTellsOfHandlesAndOfNothingThatNeedsATarget) {
   EXPECT_EQ(run["solver"]["termination"], "converged");
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(file("out"))) files.insert(entry.path().filename());
-  EXPECT_EQ(files, (std::set<std::string>{"result.json", "experiment.yaml", "index.html", "source.ply",
-                                          "registered.ply", "depth_source.png", "depth_registered.png",
-                                          "motion.png", "graph.png"}));
+  EXPECT_EQ(files, (std::set<std::string>{".pliant", "result.json", "experiment.yaml", "index.html",
+                                          "source.ply", "registered.ply", "depth_source.png",
+                                          "depth_registered.png", "motion.png", "graph.png"}));
   EXPECT_EQ(run_table(plan(two_handles), records_).rows.at(0).link, "index.html");
 }
 

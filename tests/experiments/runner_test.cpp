@@ -42,7 +42,10 @@ std::vector<std::string> keys(const ordered_json& json) {
 
 void drop_times(ordered_json& json) {
   json["environment"].erase("date");
-  for (auto& run : json["runs"]) run.erase("time_ms");
+  for (auto& run : json["runs"]) {
+    run.erase("time_ms");
+    run.erase("timing");
+  }
 }
 
 TEST_F(RunnerTest, ResultHasTheKeysThatOthersRead) {
@@ -54,7 +57,7 @@ TEST_F(RunnerTest, ResultHasTheKeysThatOthersRead) {
   ASSERT_EQ(result["runs"].size(), 1U);
   const ordered_json& entry = result["runs"][0];
   EXPECT_THAT(keys(entry), ElementsAre("name", "termination", "reason", "warnings", "counts", "metrics",
-                                       "initial", "aligned", "energy", "time_ms", "solver"));
+                                       "initial", "aligned", "energy", "time_ms", "timing", "solver"));
   EXPECT_THAT(keys(entry["counts"]), ElementsAre("source_points", "nodes", "edges", "constraints", "unknowns",
                                                  "outer_iterations", "solver_iterations"));
   for (const char* stage : {"metrics", "initial", "aligned"})
@@ -133,8 +136,8 @@ TEST_F(RunnerTest, ASingleRunIsWrittenAtTheTop) {
 
 TEST_F(RunnerTest, SeveralRunsGetAFolderEachAndAPageOverAll) {
   const ordered_json result = run(plan("runs: {coarse: {graph: {spacing: 14}}, fine: }"), "out");
-  EXPECT_EQ(files_of("out"),
-            (std::set<std::string>{"result.json", "experiment.yaml", "index.html", "coarse", "fine"}));
+  EXPECT_EQ(files_of("out"), (std::set<std::string>{".pliant", "result.json", "experiment.yaml", "index.html",
+                                                    "coarse", "fine"}));
   EXPECT_TRUE(files_of("out/fine").contains("registered.ply"));
   ASSERT_EQ(result["runs"].size(), 2U);
   EXPECT_EQ(result["runs"][0]["name"], "coarse");
@@ -150,7 +153,7 @@ TEST_F(RunnerTest, ReportsAreThoseOfTheExperiment) {
         "stopping: {max_iterations: 1}\n");
   const ExperimentPlan bare = plan_experiment({file("bare.yaml"), {}, {}, {}}, registry_);
   run(bare, "bare");
-  EXPECT_EQ(files_of("bare"), (std::set<std::string>{"result.json", "experiment.yaml"}));
+  EXPECT_EQ(files_of("bare"), (std::set<std::string>{".pliant", "result.json", "experiment.yaml"}));
   EXPECT_EQ(run_table(bare, records_).rows.at(0).link, "");  // there is no page to lead to
   const ExperimentPlan whole = plan("");
   run(whole, "whole");
@@ -183,6 +186,67 @@ TEST_F(RunnerTest, ProgressIsToldUnderTheNameOfTheRun) {
   });
   EXPECT_EQ(names, std::set<std::string>{"mine"});
   EXPECT_EQ(last, 1);
+}
+
+TEST_F(RunnerTest, TheTimeSaysWhetherKernelsWereBuiltInIt) {
+  EXPECT_EQ(run(plan(""), "first")["runs"][0]["timing"]["built_kernels"], true);
+  const ordered_json again = run(plan(""), "again")["runs"][0];
+  EXPECT_EQ(again["timing"]["built_kernels"], false);
+  EXPECT_EQ(again["timing"]["repeats"], 1);
+  EXPECT_EQ(again["timing"]["median_ms"], again["time_ms"]["total"]);
+}
+
+TEST_F(RunnerTest, RepeatsTellTheMedianAndTheSpreadOfRunsAfterTheFirst) {
+  int warm_ups = 0;
+  const auto count = [&](const Progress& step) {
+    warm_ups += step.message.find("warm-up, iteration 1:") == 0;
+  };
+  const auto records = run_experiment(plan(""), file("out"), workbench_, count, 3);
+  const ordered_json entry = ordered_json::parse(text_of("out/result.json"))["runs"][0];
+  const ordered_json& timing = entry["timing"];
+  EXPECT_EQ(warm_ups, 1);
+  EXPECT_EQ(timing["repeats"], 3);
+  EXPECT_EQ(timing["built_kernels"], false);
+  EXPECT_LE(timing["min_ms"], timing["median_ms"]);
+  EXPECT_LE(timing["median_ms"], timing["max_ms"]);
+  EXPECT_EQ(timing["median_ms"], entry["time_ms"]["total"]);
+  EXPECT_THAT(run_table(plan(""), records).rows.at(0).cells.back(),
+              ::testing::MatchesRegex("[0-9]+ .[0-9]+ to [0-9]+."));
+}
+
+TEST_F(RunnerTest, AnErrorAfterAFinishedRunTellsWhereItIsKept) {
+  const ExperimentPlan made = plan("runs: {good: , bad: {graph: {spacing: 1000}}}");
+  std::string message;
+  try {
+    run_experiment(made, file("out"), workbench_);
+  } catch (const Error& error) {
+    message = error.what();
+    EXPECT_EQ(error.exit_code(), 3);
+  }
+  const std::string place = file("out/unfinished-");
+  ASSERT_NE(message.find("; what was finished before is kept in " + place), std::string::npos) << message;
+  const fs::path kept = message.substr(message.find(place));
+  EXPECT_TRUE(fs::exists(kept / "good/registered.ply"));
+  EXPECT_FALSE(fs::exists(file("out/result.json")));
+}
+
+TEST_F(RunnerTest, ARunMayWriteNoFileThatItDidNotAnnounce) {
+  const ExperimentPlan registration = plan("");
+  const auto announced = result_files(registration, registry_);
+  run(registration, "out");
+  for (const auto& name : files_of("out"))
+    EXPECT_TRUE(name == ".pliant" || std::count(announced.begin(), announced.end(), name) == 1) << name;
+}
+
+TEST_F(RunnerTest, ARerunReplacesTheOldResultWholeAndLeavesOtherFiles) {
+  run(plan("runs: {coarse: {graph: {spacing: 14}}, fine: }"), "out");
+  write("out/notes.txt", "mine");
+  write("out/coarse/notes.txt", "mine, too");
+  run(plan("reports: {page: }"), "out");
+  EXPECT_FALSE(fs::exists(file("out/fine")));
+  EXPECT_EQ(files_of("out/coarse"), std::set<std::string>{"notes.txt"});
+  EXPECT_EQ(text_of("out/notes.txt"), "mine");
+  EXPECT_TRUE(fs::exists(file("out/registered.ply")));
 }
 
 TEST_F(RunnerTest, CheckingMakesNoFile) {

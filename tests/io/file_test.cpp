@@ -1,6 +1,9 @@
 #include "framework/io/file.h"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <csignal>
 
 #include "tests/io/test_files.h"
 
@@ -30,6 +33,30 @@ TEST_F(File, FolderIsAnError) {
 TEST_F(File, WritingIntoAMissingFolderIsAnError) {
   EXPECT_THAT(data_error_of([&] { write_file(file("no/where"), {1}); }),
               AllOf(HasSubstr("no/where: cannot be written"), HasSubstr("No such file")));
+}
+
+TEST_F(File, ALinkIsFollowed) {
+  write("a", "old");
+  std::filesystem::create_symlink("a", file("link"));
+  write("link", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(file("link")));
+  EXPECT_EQ(read_file(file("a")), (std::vector<std::uint8_t>{'n', 'e', 'w'}));
+}
+
+// A limit on the size of files stands for a full disk.
+TEST_F(File, ADiskThatFillsUpLeavesTheOldFileAndNoOther) {
+  write("a", "old");
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit small = before;
+  small.rlim_cur = 10;
+  std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = data_error_of([&] { write_file(file("a"), std::vector<std::uint8_t>(20)); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(message, file("a") + ": cannot be written: File too large");
+  EXPECT_EQ(read_file(file("a")), (std::vector<std::uint8_t>{'o', 'l', 'd'}));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("")), {}), 1);
 }
 
 TEST_F(File, FullDiskIsAnError) {

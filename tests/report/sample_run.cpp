@@ -36,11 +36,13 @@ SampleRun::SampleRun(float left) {
   result.termination = "residual_settled";
   result.time_ms = {{"solve", 90.25}, {"match", 12.5}};
   result.total_ms = 110.75;
-  evaluation = std::make_unique<Evaluation>(pair, result.source, target);
+  const Evaluation evaluation(pair, result.source, target);
+  nearest = {evaluation.nearest(result.source.points), evaluation.nearest(result.aligned_points),
+             evaluation.nearest(result.points)};
   run.name = "sheet/<fast>";
-  run.initial = evaluation->measure(result.source.points);
-  run.aligned = evaluation->measure(result.aligned_points);
-  run.metrics = evaluation->measure(result.points);
+  run.initial = evaluation.measure(result.source.points);
+  run.aligned = evaluation.measure(result.aligned_points);
+  run.metrics = evaluation.measure(result.points);
 }
 
 std::filesystem::path test_folder() {

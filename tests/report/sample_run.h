@@ -12,12 +12,12 @@ namespace pliant {
 /// 40 x 30 pixels; the column 10 has no source depth and no colour is known.
 struct SampleRun {
   explicit SampleRun(float left);
-  ReportInput input() const { return {pair, target, *evaluation, run}; }
+  ReportInput input() const { return {pair, target, nearest, run}; }
 
   static constexpr float target_depth = 830;
   FramePair pair;
   SurfaceMap target;
-  std::unique_ptr<Evaluation> evaluation;
+  NearestDistances nearest;
   RunRecord run;
 };
 

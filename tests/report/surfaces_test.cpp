@@ -150,7 +150,7 @@ TEST(SurfacesReport, WritesSourceTargetAndRegistered) {
   for (std::size_t i = 0; i < source.vertices.size(); ++i) {
     EXPECT_FLOAT_EQ(source.vertices[i].position[2], 800);  // as given, before the alignment
     EXPECT_FLOAT_EQ(registered.vertices[i].position[2], 826);
-    EXPECT_NEAR(registered.vertices[i].error, sample.evaluation->nearest(sample.run.result.points)[i], 1e-5);
+    EXPECT_NEAR(registered.vertices[i].error, sample.nearest.final[i], 1e-5);
     EXPECT_EQ(registered.vertices[i].pixel[0], source.vertices[i].pixel[0]);
     EXPECT_EQ(registered.vertices[i].pixel[1], source.vertices[i].pixel[1]);
   }

@@ -1,0 +1,43 @@
+#include "experiments/program/interruption.h"
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include "experiments/program/output.h"
+#include "experiments/runner/result_folder.h"
+
+namespace pliant {
+namespace {
+
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+[[noreturn]] void end_after(int signal) {
+  ResultFolder::abandon_all();
+  write_message(isatty(STDERR_FILENO) != 0 ? "\r\033[Kinterrupted\n" : "interrupted\n");
+  ::_exit(128 + signal);
+}
+
+}  // namespace
+
+void answer_interruptions() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  if (!is_ignored(SIGHUP)) sigaddset(&signals, SIGHUP);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::atexit(ResultFolder::abandon_all);  // for libraries that end the program on their own
+  std::thread([signals] {
+    int signal = 0;
+    if (sigwait(&signals, &signal) == 0) end_after(signal);
+  }).detach();
+}
+
+}  // namespace pliant

@@ -1,0 +1,221 @@
+#include "experiments/runner/result_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "framework/core/error.h"
+#include "framework/io/file.h"
+
+namespace pliant {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = ResultFolder::Files;
+
+constexpr const char* list_name = ".pliant";
+constexpr const char* list_head =
+    "# The result's files, which the next result replaces; it touches no others.\n";
+
+/// Guards the folders that are open, and is held while one changes.
+std::mutex& guard() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+std::set<const ResultFolder*>& open_folders() {
+  static std::set<const ResultFolder*> folders;
+  return folders;
+}
+
+/// The files that `folder` lists as a result's, and those that results in folders of this one do.
+Files listed(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / list_name, ignored)) return {};
+  const auto bytes = read_file((folder / list_name).string());
+  const std::string text(bytes.begin(), bytes.end());
+  Files files;
+  std::set<fs::path> below;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const fs::path file = text.substr(at, end - at);
+    at = end + 1;
+    if (file.empty() || file.native().front() == '#') continue;
+    files.push_back(file);
+    if (file.has_parent_path()) below.insert(*file.begin());
+  }
+  for (const fs::path& name : below)
+    for (const fs::path& file : listed(folder / name)) files.push_back(name / file);
+  return files;
+}
+
+void write_list(const fs::path& folder, const Files& files) {
+  std::string text = list_head;
+  for (const auto& name : std::set<fs::path>(files.begin(), files.end())) text += name.string() + "\n";
+  write_file((folder / list_name).string(), {text.begin(), text.end()});
+}
+
+/// All files below a folder, seen from it.
+Files files_below(const fs::path& folder) {
+  Files files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(folder));
+  return files;
+}
+
+/// The numbers of a result: first to go, and last to come, so that a result which has them is whole.
+bool is_crown(const fs::path& file) {
+  return file.filename() == "result.json" || file.filename() == "compare.json";
+}
+
+void make_folders(const fs::path& folder, const Files& files) {
+  for (const auto& file : files) fs::create_directories((folder / file).parent_path());
+}
+
+void move_files(const fs::path& from, const fs::path& to, const Files& files) {
+  for (const auto& file : files) {
+    std::error_code ignored;
+    if (!fs::exists(fs::symlink_status(from / file, ignored))) continue;
+    fs::rename(from / file, to / file);
+  }
+}
+
+/// Removes the folders of `files` that have nothing in them any more.
+void remove_empty_folders(const fs::path& folder, const Files& files) {
+  std::set<fs::path> parents;
+  for (const auto& file : files)
+    for (fs::path parent = file.parent_path(); !parent.empty(); parent = parent.parent_path())
+      parents.insert(parent);
+  std::error_code ignored;
+  for (auto parent = parents.rbegin(); parent != parents.rend(); ++parent)
+    fs::remove(folder / *parent, ignored);
+}
+
+bool is_input(const fs::path& file, const Files& inputs) {
+  return std::any_of(inputs.begin(), inputs.end(), [&](const fs::path& input) {
+    std::error_code ignored;
+    return fs::equivalent(file, input, ignored);
+  });
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(const fs::path& folder, const Files& files, const Files& inputs)
+    : folder_(folder) {
+  check_free(files, inputs);
+  const std::scoped_lock lock(guard());
+  open();
+  open_folders().insert(this);
+}
+
+ResultFolder::~ResultFolder() {
+  const std::scoped_lock lock(guard());
+  open_folders().erase(this);
+  if (!unfinished_.empty()) abandon();
+}
+
+void ResultFolder::check_free(const Files& files, const Files& inputs) const {
+  const Files ours = listed(folder_);
+  std::set<std::string> problems;
+  for (const auto& file : files)
+    for (fs::path part = file; !part.empty(); part = part.parent_path()) {
+      const fs::path path = folder_ / part;
+      std::error_code ignored;
+      const bool is_in_the_way = part == file ? fs::exists(fs::symlink_status(path, ignored))
+                                              : fs::exists(path, ignored) && !fs::is_directory(path, ignored);
+      if (!is_in_the_way) continue;
+      if (is_input(path, inputs))
+        problems.insert(path.string() + " is read by this experiment");
+      else if (std::find(ours.begin(), ours.end(), part) == ours.end())
+        problems.insert(path.string() + " is not of an earlier result");
+    }
+  if (problems.empty()) return;
+  throw DataError(
+      fmt::format("{}: the result would take the place of other files: {}; choose another folder with --out",
+                  folder_.string(), fmt::join(problems, ", ")));
+}
+
+void ResultFolder::open() {
+  std::error_code error;
+  for (fs::path above = fs::absolute(folder_); !fs::exists(above, error); above = above.parent_path())
+    topmost_made_ = above;
+  fs::create_directories(folder_, error);
+  if (error || !fs::is_directory(folder_, error))
+    throw DataError(fmt::format("{}: the output folder cannot be made: {}", folder_.string(),
+                                error ? error.message() : "there is a file of this name"));
+  std::string name = (folder_ / "unfinished-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) {
+    const int why = errno;
+    abandon();
+    throw DataError(
+        fmt::format("{}: the output folder cannot be written: {}", folder_.string(), std::strerror(why)));
+  }
+  unfinished_ = name;
+}
+
+void ResultFolder::abandon() const {
+  std::error_code ignored;
+  // Another thread may still be writing into it; it cannot make the folder anew.
+  for (int i = 0; i < 200 && !unfinished_.empty() && fs::exists(unfinished_, ignored); ++i) {
+    if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    fs::remove_all(unfinished_, ignored);
+  }
+  if (topmost_made_.empty()) return;
+  for (fs::path made = fs::absolute(folder_); fs::remove(made, ignored); made = made.parent_path())
+    if (made == topmost_made_) return;
+}
+
+void ResultFolder::commit() {
+  const std::scoped_lock lock(guard());
+  try {
+    const Files fresh = files_below(unfinished_);
+    check_free(fresh, {});
+    replace_by(fresh);
+  } catch (const std::exception& error) {
+    const std::string kept = unfinished_.string();
+    unfinished_.clear();
+    throw DataError(fmt::format("{}; the new result is kept in {}", error.what(), kept));
+  }
+  std::error_code ignored;
+  fs::remove_all(unfinished_, ignored);
+  unfinished_.clear();
+}
+
+/// All that needs room on the disk comes first.
+void ResultFolder::replace_by(Files fresh) const {
+  Files old = listed(folder_);
+  const fs::path replaced = unfinished_ / ".replaced";
+  write_list(unfinished_, fresh);
+  make_folders(replaced, old);
+  make_folders(folder_, fresh);
+  Files both = old;
+  both.insert(both.end(), fresh.begin(), fresh.end());
+  write_list(folder_, both);
+  std::stable_partition(old.begin(), old.end(), is_crown);
+  std::stable_partition(fresh.begin(), fresh.end(), [](const fs::path& file) { return !is_crown(file); });
+  move_files(folder_, replaced, old);
+  move_files(unfinished_, folder_, fresh);
+  fs::rename(unfinished_ / list_name, folder_ / list_name);
+  remove_empty_folders(folder_, old);
+}
+
+fs::path ResultFolder::keep() {
+  const std::scoped_lock lock(guard());
+  return std::exchange(unfinished_, {});
+}
+
+void ResultFolder::abandon_all() {
+  guard().lock();  // for ever
+  for (const ResultFolder* folder : open_folders()) folder->abandon();
+}
+
+}  // namespace pliant

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace pliant {
+
+/// A folder that holds one result, the old or the new one, and may hold other files as well. A result is
+/// written into a folder `unfinished-XXXXXX` inside it; commit() puts it in the old one's place by renaming.
+/// What belongs to a result is listed in its file `.pliant`; nothing else is ever replaced or removed.
+///
+/// The folder itself stays: it may be somebody's current folder, a mount point, or have other rights than its
+/// parent. Between the first and the last rename (a millisecond) result.json is not there.
+class ResultFolder {
+ public:
+  using Files = std::vector<std::filesystem::path>;
+
+  /// Makes `folder` unless it is there. `files`: all that may be written, relative to it; `inputs`: what must
+  /// not be replaced although an earlier result has it. Throws DataError that names each file in the way, or
+  /// why the folder cannot be made or written.
+  ResultFolder(const std::filesystem::path& folder, const Files& files, const Files& inputs);
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+  /// Unless there was a commit() or keep(), nothing is left of what was begun.
+  ~ResultFolder();
+
+  /// Where the result is written.
+  const std::filesystem::path& unfinished() const { return unfinished_; }
+
+  /// Puts the new result in the place of the old one.
+  void commit();
+
+  /// Leaves what was written beside the old result; gives its place.
+  std::filesystem::path keep();
+
+  /// For a process that is about to be ended from another thread: waits for a commit() that is under way,
+  /// removes what other folders have begun, and lets no thread begin or commit any more.
+  static void abandon_all();
+
+ private:
+  void check_free(const Files& files, const Files& inputs) const;
+  void open();
+  void abandon() const;
+  void replace_by(Files fresh) const;
+
+  std::filesystem::path folder_;
+  std::filesystem::path topmost_made_;  ///< of the folders that had to be made; empty: none
+  std::filesystem::path unfinished_;    ///< empty when it is no more
+};
+
+}  // namespace pliant
