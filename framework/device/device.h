@@ -59,14 +59,13 @@ class Device {
   /// `-DWIDTH=<width()>` is always defined. Throws DeviceError with the build log when the source does not
   /// compile.
   cl::Kernel kernel(std::string_view source, const std::string& name, const std::string& options = "");
-  /// Programs made since the device was opened: a computation during which this grows has waited for the
-  /// compiler, or for the driver to load what it kept on disk.
-  int programs_built() const { return programs_built_; }
+
   /// `tell` is called once, before the first program that no run is known to have built here: those take
   /// seconds each, while drivers keep what they have built.
   void tell_of_building(ProgressSink tell) { tell_of_building_ = std::move(tell); }
 
-  /// How many programs kernel() has built so far: a time in which it rises is not that of a later run.
+  /// How many programs kernel() has built so far: a computation during which it rises has waited for the
+  /// compiler, or for the driver to load what it kept on disk.
   int programs_built() const { return programs_built_; }
 
   /// Enqueues a kernel over a one-dimensional range. `local` = 0 leaves the group size to the driver;
@@ -135,7 +134,6 @@ class Device {
   std::unordered_map<std::string, Program> programs_;  // by options and source
   int programs_built_ = 0;
   mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: what allocate() gave out
-  int programs_built_ = 0;
   bool measuring_ = false;
   struct Record {
     std::string stage;

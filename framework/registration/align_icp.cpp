@@ -91,6 +91,11 @@ std::vector<Parameter> icp_rows() {
           .doc("max_distance of the coarsest level, in extents of the source (root mean square distance of "
                "its points from their mean)"),
       real("coarse_angle", 75).unit("degree").range(0, 180).doc("max_angle of the coarsest level"),
+      real("trim", defaults.trim)
+          .at_least(0)
+          .doc(
+              "In the last level matches are rejected too whose distance to the plane is more than this many "
+              "root mean squares of those accepted before: what deforms does not pull at the rest; 0: none"),
       real("search_angle", 30)
           .unit("degree")
           .range(0, 90)
@@ -108,6 +113,7 @@ RigidIcpOptions read_icp_options(const Parameters& section) {
   options.iterations = static_cast<int>(section.integer("iterations"));
   options.coarse_distance = section.real("coarse_distance");
   options.coarse_angle = section.real("coarse_angle") * degree;
+  options.trim = section.real("trim");
   options.search_angle = section.real("search_angle") * degree;
   return options;
 }

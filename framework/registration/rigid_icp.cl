@@ -10,7 +10,9 @@
 #define PIVOT 9
 #define STATUS 12  // 0, or FAILED, or 1 + the level at which it converged
 #define ITERATIONS 13
+#define SPREAD 14  // root mean square distance of its last matches in the last level; 0: none yet
 #define FAILED -1
+#define LEAST_TRIM 0.1f  // of max_distance
 
 // What a chunk of samples adds up: the upper triangle of J^T J, J^T r, the sum of r^2 and of matches.
 #define SUMS 32
@@ -78,24 +80,20 @@ typedef struct {
   float from[3], to[3];
 } Motion;
 
-static inline Motion forward(global const float* pose, global const float* pivot) {
-  Motion motion;
-  for (int i = 0; i < 9; ++i) motion.R[i] = pose[i];
+static inline void forward(global const float* pose, global const float* pivot, Motion* motion) {
+  for (int i = 0; i < 9; ++i) motion->R[i] = pose[i];
   for (int i = 0; i < 3; ++i) {
-    motion.from[i] = pivot[i];
-    motion.to[i] = pose[PIVOT + i];
+    motion->from[i] = pivot[i];
+    motion->to[i] = pose[PIVOT + i];
   }
-  return motion;
 }
 
-static inline Motion backward(global const float* pose, global const float* pivot) {
-  Motion motion;
-  for (int i = 0; i < 9; ++i) motion.R[i] = pose[3 * (i % 3) + i / 3];
+static inline void backward(global const float* pose, global const float* pivot, Motion* motion) {
+  for (int i = 0; i < 9; ++i) motion->R[i] = pose[3 * (i % 3) + i / 3];
   for (int i = 0; i < 3; ++i) {
-    motion.from[i] = pose[PIVOT + i];
-    motion.to[i] = pivot[i];
+    motion->from[i] = pose[PIVOT + i];
+    motion->to[i] = pivot[i];
   }
-  return motion;
 }
 
 static inline Vector turned(const Motion* m, Vector v) {
@@ -226,18 +224,22 @@ static inline float farthest_match(global const float4* extents, float max_dista
 // ------------------------------------------------------------------------------------------------ equations
 
 // The normal equations of some poses, a chunk of samples of one pose a work-item; of a negative level
-// whatever became of the pose.
+// whatever became of the pose. trim, where it is not 0: once the pose has matches of this level, planes may
+// lie that many times their spread away.
 kernel void accumulate(int count, int level, int padded, global const float* samples,
                        global const float* poses, global const float4* extents, float4 camera, int2 size,
                        global const float* points, global const float* normals, float max_distance,
-                       float coarse, float share, float least_cosine, global float* partials) {
+                       float coarse, float share, float trim, float least_cosine, global float* partials) {
   const int chunks = (padded + CHUNK - 1) / CHUNK;
   const int which = get_global_id(0) / chunks;
   if (which >= count) return;
   global const float* pose = poses + POSE_SIZE * which;
   if (level >= 0 && (pose[STATUS] == FAILED || pose[STATUS] == level + 1)) return;
-  const Motion motion = forward(pose, (global const float*)extents);
+  Motion motion;
+  forward(pose, (global const float*)extents, &motion);
   const float far = farthest_match(extents, max_distance, coarse, share);
+  const float farthest_plane =
+      trim > 0 && pose[SPREAD] > 0 ? fmax(trim * pose[SPREAD], LEAST_TRIM * max_distance) : far;
   const int first = (get_global_id(0) - which * chunks) * CHUNK;
   Lanes sums[LANDED + 1];
 #pragma unroll
@@ -254,6 +256,7 @@ kernel void accumulate(int count, int level, int padded, global const float* sam
     const Vector offset = minus(moved, q);
     const Truth lands = inside && p.z > (Lanes)0 && q.z > (Lanes)0;
     const Truth matches = lands && inner(n, n) > (Lanes)0 && inner(offset, offset) <= (Lanes)(far * far) &&
+                          fabs(inner(offset, n)) <= (Lanes)farthest_plane &&
                           (inner(own, n) >= (Lanes)least_cosine || inner(own, own) == (Lanes)0);
     const Lanes normal[3] = {WHERE(matches, n.x), WHERE(matches, n.y), WHERE(matches, n.z)};
     const Lanes away[3] = {WHERE(matches, offset.x), WHERE(matches, offset.y), WHERE(matches, offset.z)};
@@ -340,7 +343,7 @@ static inline void turn_pose(float3 turn, global float* pose) {
 // unknowns are alike. damping: share of the mean diagonal, which keeps still what the matches do not tell;
 // tolerance: share of the level's distance that a last step stays below.
 kernel void take_step(int count, int level, int padded, global const float* partials,
-                      global const float4* extents, float max_distance, float coarse, float share,
+                      global const float4* extents, float max_distance, float coarse, float share, float trim,
                       float fewest, float damping, float tolerance, global float* poses) {
   const int which = get_global_id(0);
   if (which >= count) return;
@@ -349,6 +352,7 @@ kernel void take_step(int count, int level, int padded, global const float* part
   float sums[SUMS];
   add_chunks(which, padded, partials, sums);
   pose[ITERATIONS] += 1;
+  if (trim > 0 && sums[MATCHES] > 0) pose[SPREAD] = sqrt(sums[SQUARES] / sums[MATCHES]);
   const float extent = extents[0].w;
   float A[36], b[6];
   float trace = 0;
@@ -373,29 +377,9 @@ kernel void take_step(int count, int level, int padded, global const float* part
 
 // ------------------------------------------------------------------------------------------------- judgement
 
-// The cut distances of one chunk of samples from the map that they are moved into. Where the map shows
-// nothing, or something further away than `cut`, the distance is `cut`. What faces away from the camera is
-// hidden, what leaves its view is not known: both do not count.
-static inline float2 compare(const Motion* motion, int first, int padded, global const float* samples,
-                             float4 camera, int2 size, global const float* points, float cut) {
-  Lanes sum = 0, known = 0;
-  for (int i = first; i < min(first + CHUNK, padded); i += WIDTH) {
-    const Vector p = load(samples, padded, i);
-    const Vector moved = placed(motion, arm_of(motion, p));
-    const Vector normal = turned(motion, load(samples + 3 * padded, padded, i));
-    Truth inside;
-    const Vector q = gather(project(moved, camera, size, &inside), points);
-    const Vector offset = minus(moved, q);
-    const Truth counts = inside && p.z > (Lanes)0 && inner(normal, moved) <= (Lanes)0;
-    const Lanes distance = fmin(sqrt(inner(offset, offset)), (Lanes)cut);
-    sum += WHERE(counts, select((Lanes)cut, distance, q.z > (Lanes)0));
-    known += WHERE(counts, (Lanes)1);
-  }
-  return (float2)(total(sum), total(known));
-}
-
-// Both ways: the source's samples against the target's map, then the target's samples, moved back, against
-// the source's.
+// Cut distances, both ways: the source's samples from the target's map, then the target's samples, moved
+// back, from the source's. Where the map shows nothing, or something further away, the distance is `cut`
+// extents. What faces away from the camera is hidden, what leaves its view is not known: both do not count.
 kernel void judge(int count, int padded_source, global const float* source, int padded_target,
                   global const float* target, global const float* poses, global const float4* extents,
                   float4 camera_source, int2 size_source, global const float* source_points,
@@ -405,18 +389,33 @@ kernel void judge(int count, int padded_source, global const float* source, int 
   const int chunks = source_chunks + (padded_target + CHUNK - 1) / CHUNK;
   const int which = get_global_id(0) / chunks, chunk = get_global_id(0) - which * chunks;
   if (which >= count) return;
-  global const float* pose = poses + POSE_SIZE * which;
-  global const float* pivot = (global const float*)extents;
-  const float farthest = cut * extents[0].w;
-  if (chunk < source_chunks) {
-    const Motion motion = forward(pose, pivot);
-    partials[get_global_id(0)] = compare(&motion, chunk * CHUNK, padded_source, source, camera_target,
-                                         size_target, target_points, farthest);
-  } else {
-    const Motion motion = backward(pose, pivot);
-    partials[get_global_id(0)] = compare(&motion, (chunk - source_chunks) * CHUNK, padded_target, target,
-                                         camera_source, size_source, source_points, farthest);
+  const int is_back = chunk >= source_chunks;
+  global const float* samples = is_back ? target : source;
+  global const float* points = is_back ? source_points : target_points;
+  const int padded = is_back ? padded_target : padded_source;
+  const float4 camera = is_back ? camera_source : camera_target;
+  const int2 size = is_back ? size_source : size_target;
+  Motion motion;
+  if (is_back)
+    backward(poses + POSE_SIZE * which, (global const float*)extents, &motion);
+  else
+    forward(poses + POSE_SIZE * which, (global const float*)extents, &motion);
+  const Lanes farthest = cut * extents[0].w;
+  const int first = (is_back ? chunk - source_chunks : chunk) * CHUNK;
+  Lanes sum = 0, known = 0;
+  for (int i = first; i < min(first + CHUNK, padded); i += WIDTH) {
+    const Vector p = load(samples, padded, i);
+    const Vector moved = placed(&motion, arm_of(&motion, p));
+    const Vector normal = turned(&motion, load(samples + 3 * padded, padded, i));
+    Truth inside;
+    const Vector q = gather(project(moved, camera, size, &inside), points);
+    const Vector offset = minus(moved, q);
+    const Truth counts = inside && p.z > (Lanes)0 && inner(normal, moved) <= (Lanes)0;
+    const Lanes distance = fmin(sqrt(inner(offset, offset)), farthest);
+    sum += WHERE(counts, select(farthest, distance, q.z > (Lanes)0));
+    known += WHERE(counts, (Lanes)1);
   }
+  partials[get_global_id(0)] = (float2)(total(sum), total(known));
 }
 
 // The mean of both ways' means, in mm; one that knows too few samples counts as cut.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "framework/problem/equation_source.h"
 #include "framework/registration/projection.h"
@@ -51,7 +52,8 @@ cl::Kernel icp_kernel(Device& device, const std::string& name) {
   return device.kernel(device.width() == 1 ? scalar : vector, name);
 }
 
-/// What the search starts from beside the given start: no turn, one about each axis, and both about x and y.
+/// What the search starts from beside the given start: no turn, one about each axis, both about x and y, and
+/// twice as far about x or y, where most of what was seen is hidden.
 std::vector<Eigen::Quaterniond> search_turns(double angle) {
   std::vector<Eigen::Quaterniond> turns{Eigen::Quaterniond::Identity()};
   const auto turn = [](double by, const Eigen::Vector3d& axis) {
@@ -60,6 +62,7 @@ std::vector<Eigen::Quaterniond> search_turns(double angle) {
   for (const double sign : {1.0, -1.0}) {
     for (int axis = 0; axis < 3; ++axis) turns.push_back(turn(sign * angle, Eigen::Vector3d::Unit(axis)));
     for (const double other : {1.0, -1.0}) turns.push_back(turn(sign * angle, {1, other, 0}));
+    for (int axis = 0; axis < 2; ++axis) turns.push_back(turn(2 * sign * angle, Eigen::Vector3d::Unit(axis)));
   }
   return turns;
 }
@@ -149,7 +152,11 @@ void RigidIcp::accumulate(const Level& level, int number, int poses, const SeenS
                pinhole(target.camera), image_size(target.camera), target.points.device(*device_),
                target.normals.device(*device_), static_cast<cl_float>(options_.max_distance),
                static_cast<cl_float>(options_.coarse_distance), static_cast<cl_float>(level.share),
-               static_cast<cl_float>(std::cos(angle)), partials_.write_device(*device_));
+               trim_of(level), static_cast<cl_float>(std::cos(angle)), partials_.write_device(*device_));
+}
+
+cl_float RigidIcp::trim_of(const Level& level) const {
+  return static_cast<cl_float>(level.number + 1 == options_.levels ? options_.trim : 0);
 }
 
 void RigidIcp::refine(const Level& level, int poses, const SeenSurface& target) {
@@ -159,7 +166,7 @@ void RigidIcp::refine(const Level& level, int poses, const SeenSurface& target) 
     device_->run(
         "icp", kernel, static_cast<std::size_t>(poses), 1, poses, level.number, level.samples.padded,
         partials_.device(*device_), extents_.device(*device_), static_cast<cl_float>(options_.max_distance),
-        static_cast<cl_float>(options_.coarse_distance), static_cast<cl_float>(level.share),
+        static_cast<cl_float>(options_.coarse_distance), static_cast<cl_float>(level.share), trim_of(level),
         static_cast<cl_float>(std::max(6.0, fewest_matches * level.samples.count)),
         static_cast<cl_float>(damping), static_cast<cl_float>(tolerance), poses_.write_device(*device_));
   }
@@ -282,6 +289,103 @@ RigidIcpResult RigidIcp::read_result() {
   result.converged = pose[status] == static_cast<float>(options_.levels);
   explain(result, pose[status] < 0);
   return result;
+}
+
+// --- plain C++ references ---
+
+namespace {
+
+/// The motion in the numbers that the kernels see.
+struct PlainMotion {
+  Eigen::Matrix3f turn;
+  Eigen::Vector3f from;
+  Eigen::Vector3f to;
+
+  PlainMotion(const Eigen::Isometry3d& pose, const Eigen::Vector3d& pivot)
+      : turn(pose.linear().cast<float>()),
+        from((pose.inverse() * pivot).cast<float>()),
+        to(pivot.cast<float>()) {}
+};
+
+/// The pixel that a point projects to, none outside of the image.
+std::optional<std::size_t> pixel_of(const Eigen::Vector3f& point, const Camera& camera) {
+  if (!(point.z() > 0)) return std::nullopt;
+  const cl_float4 pinhole_of_camera = pinhole(camera);
+  const auto& [fx, fy, cx, cy] = pinhole_of_camera.s;
+  const float u = std::floor(fx * point.x() / point.z() + (cx + 0.5F));
+  const float v = std::floor(fy * point.y() / point.z() + (cy + 0.5F));
+  if (!(u >= 0 && v >= 0 && u < static_cast<float>(camera.width) && v < static_cast<float>(camera.height)))
+    return std::nullopt;
+  return static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(u);
+}
+
+struct Direction {
+  double sum = 0;
+  int known = 0;
+};
+
+Direction compare_reference(const SeenSurface& surface, const PlainMotion& motion, const SeenSurface& map,
+                            double cut) {
+  Direction direction;
+  for (const int sample : surface.pixels.host()) {
+    const Eigen::Vector3f p = finite_or_none(surface.points, static_cast<std::size_t>(sample));
+    if (!(p.z() > 0)) continue;
+    const Eigen::Vector3f moved = motion.turn * (p - motion.from) + motion.to;
+    const Eigen::Vector3f normal =
+        motion.turn * finite_or_none(surface.normals, static_cast<std::size_t>(sample));
+    const auto pixel = pixel_of(moved, map.camera);
+    if (!pixel || normal.dot(moved) > 0) continue;
+    const Eigen::Vector3f q = finite_or_none(map.points, *pixel);
+    direction.sum += q.z() > 0 ? std::min<double>((moved - q).norm(), cut) : cut;
+    ++direction.known;
+  }
+  return direction;
+}
+
+double mean_of(const Direction& direction, std::size_t samples, double cut) {
+  const bool is_known = direction.known >= std::max(1.0, fewest_known * static_cast<double>(samples));
+  return is_known ? direction.sum / direction.known : cut;
+}
+
+}  // namespace
+
+RigidEquations rigid_equations_reference(const SeenSurface& source, const SeenSurface& target,
+                                         const Eigen::Isometry3d& pose, const Eigen::Vector3d& pivot,
+                                         const RigidIcpOptions& options) {
+  const PlainMotion motion(pose, pivot);
+  RigidEquations equations;
+  equations.pivot = pivot;
+  for (const int sample : source.pixels.host()) {
+    const Eigen::Vector3f p = finite_or_none(source.points, static_cast<std::size_t>(sample));
+    const Eigen::Vector3f own =
+        motion.turn * finite_or_none(source.normals, static_cast<std::size_t>(sample));
+    const Eigen::Vector3f arm = motion.turn * (p - motion.from);
+    const auto pixel = pixel_of(arm + motion.to, target.camera);
+    if (!(p.z() > 0) || !pixel) continue;
+    const Eigen::Vector3f q = finite_or_none(target.points, *pixel);
+    if (!(q.z() > 0)) continue;
+    ++equations.landed;
+    const Eigen::Vector3f n = finite_or_none(target.normals, *pixel);
+    const Eigen::Vector3f offset = arm + motion.to - q;
+    const bool is_alike = own.isZero(0) || own.dot(n) >= static_cast<float>(std::cos(options.max_angle));
+    if (n.isZero(0) || offset.norm() > options.max_distance || !is_alike) continue;
+    ++equations.matches;
+    Eigen::Matrix<float, 6, 1> J;
+    plane_distance_jacobian(arm.data(), n.data(), J.data());
+    const double r = plane_distance(offset.data(), n.data());
+    equations.JtJ += J.cast<double>() * J.cast<double>().transpose();
+    equations.Jtr += J.cast<double>() * r;
+    equations.squares += r * r;
+  }
+  return equations;
+}
+
+TwoWayResidual two_way_residual_reference(const SeenSurface& source, const SeenSurface& target,
+                                          const Eigen::Isometry3d& pose, double cut) {
+  const Direction there = compare_reference(source, {pose, pose.translation()}, target, cut);
+  const Direction back =
+      compare_reference(target, {pose.inverse(), pose.inverse().translation()}, source, cut);
+  return {0.5 * (mean_of(there, source.pixels.size(), cut) + mean_of(back, target.pixels.size(), cut)), cut};
 }
 
 }  // namespace pliant

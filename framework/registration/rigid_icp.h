@@ -20,6 +20,10 @@ struct RigidIcpOptions {
   /// mean). The levels go from there down to max_distance by equal factors.
   double coarse_distance = 1;
   double coarse_angle = 1.309;  ///< radians (75 degrees), likewise, by equal steps
+  /// In the last level, once it has matches: those are rejected too whose distance to the plane is more than
+  /// this many root mean squares of the last accepted ones (a tenth of max_distance at least). What deforms
+  /// does not pull at the rest then. 0: none are.
+  double trim = 2.5;
   /// Radians. Beside the given start, starts are tried that put the middle of the source on that of the
   /// target, unturned and turned by this about each axis, both ways; 0: only the given one.
   double search_angle = 0.5236;
@@ -110,6 +114,7 @@ class RigidIcp {
   void prepare(const SeenSurface& source, const SeenSurface& target);
   void pack(const SeenSurface& surface, int stride, Samples& samples);
   void set_out(const std::vector<Start>& starts);
+  cl_float trim_of(const Level& level) const;
   void refine(const Level& level, int poses, const SeenSurface& target);
   void accumulate(const Level& level, int number, int poses, const SeenSurface& target);
   void judge(int poses, const SeenSurface& source, const SeenSurface& target);

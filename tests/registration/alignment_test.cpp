@@ -242,6 +242,7 @@ std::unique_ptr<Alignment> make_automatic() {
                             {"iterations", std::int64_t{10}},
                             {"coarse_distance", 1.0},
                             {"coarse_angle", 75.0},
+                            {"trim", 3.0},
                             {"search_angle", 30.0}});
   return registry.make<Alignment>(Parameters("automatic", {{"icp", Parameters::Sections{{"icp", icp}}, true},
                                                            {"near_enough", 20.0},
