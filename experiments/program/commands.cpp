@@ -90,8 +90,7 @@ void check_command(const ExperimentOptions& options) {
   for (const auto& run : plan.runs)
     for (const auto& warning : workbench.pair(run.values).warnings)
       print("{}: warning: {}\n", run.name, warning);
-  print("{}: good; it makes {} run{}:", options.file, plan.runs.size(),
-             plan.runs.size() == 1 ? "" : "s");
+  print("{}: good; it makes {} run{}:", options.file, plan.runs.size(), plan.runs.size() == 1 ? "" : "s");
   for (const auto& run : plan.runs) print(" {}", run.name);
   print("\n");
 }

@@ -45,8 +45,7 @@ void ProgressLine::show(const Progress& progress) const {
 
 void show_line(const Progress& progress) {
   const bool may_hold_a_bar = isatty(STDERR_FILENO) != 0;
-  write_message(
-      fmt::format("{}{}: {}\n", may_hold_a_bar ? "\r\033[K" : "", progress.what, progress.message));
+  write_message(fmt::format("{}{}: {}\n", may_hold_a_bar ? "\r\033[K" : "", progress.what, progress.message));
 }
 
 }  // namespace pliant

@@ -38,6 +38,7 @@ class SurfacesReport : public Report {
     PlySurface registered{result.source, input.nearest.final, triangles};
     registered.surface.points = result.points;
     registered.surface.normals = result.normals;
+    registered.matched = result.matched;
 
     PlySurface target{make_surface(input.target, input.pair.target.color), {}, {}};
     target.errors.assign(target.surface.size(), 0);

@@ -26,6 +26,9 @@ ordered_json metrics_json(const Metrics& metrics) {
   json["epe_sd"] = metrics.truth->epe_sd;
   json["epe_p95"] = metrics.truth->epe_p95;
   json["epe_moving_mean"] = metrics.truth->epe_moving_mean;
+  json["epe_seen_mean"] = metrics.truth->epe_seen_mean;
+  json["epe_hidden_mean"] = metrics.truth->epe_hidden_mean;
+  json["hidden_share"] = metrics.truth->hidden_share;
   return json;
 }
 

@@ -27,15 +27,15 @@ void append(std::vector<std::uint8_t>& bytes, const Eigen::Vector3f& vector) {
   for (int i = 0; i < 3; ++i) append(bytes, vector[i]);
 }
 
-std::string header(std::size_t vertices, std::size_t triangles) {
+std::string header(const PlySurface& ply) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment millimetres, camera frame\nelement vertex {}\n"
       "property float x\nproperty float y\nproperty float z\n"
       "property float nx\nproperty float ny\nproperty float nz\n"
       "property int u\nproperty int v\nproperty float error\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n{}"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      vertices, triangles);
+      ply.surface.size(), ply.matched.empty() ? "" : "property uchar matched\n", ply.triangles.size());
 }
 
 void append_vertex(std::vector<std::uint8_t>& bytes, const PlySurface& ply, std::size_t index) {
@@ -47,13 +47,15 @@ void append_vertex(std::vector<std::uint8_t>& bytes, const PlySurface& ply, std:
   append(bytes, ply.errors[index]);
   const Rgb color = surface.colors.empty() ? neutral_grey : surface.colors[index];
   bytes.insert(bytes.end(), {color.r, color.g, color.b});
+  if (!ply.matched.empty()) bytes.push_back(ply.matched[index]);
 }
 
 void check_lengths(const PlySurface& ply) {
   const std::size_t count = ply.surface.points.size();
   const bool fits = ply.surface.normals.size() == count && ply.surface.pixels.size() == count &&
                     ply.errors.size() == count &&
-                    (ply.surface.colors.empty() || ply.surface.colors.size() == count);
+                    (ply.surface.colors.empty() || ply.surface.colors.size() == count) &&
+                    (ply.matched.empty() || ply.matched.size() == count);
   if (!fits) throw std::invalid_argument("the lists of a PLY surface differ in length");
 }
 
@@ -61,9 +63,9 @@ void check_lengths(const PlySurface& ply) {
 
 void write_ply(const std::string& path, const PlySurface& ply) {
   check_lengths(ply);
-  const std::string head = header(ply.surface.size(), ply.triangles.size());
+  const std::string head = header(ply);
   std::vector<std::uint8_t> bytes(head.begin(), head.end());
-  bytes.reserve(bytes.size() + 39 * ply.surface.size() + 13 * ply.triangles.size());
+  bytes.reserve(bytes.size() + 40 * ply.surface.size() + 13 * ply.triangles.size());
   for (std::size_t i = 0; i < ply.surface.size(); ++i) append_vertex(bytes, ply, i);
   for (const Eigen::Vector3i& triangle : ply.triangles) {
     bytes.push_back(3);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr float moving_distance = 1;  // mm
+constexpr float seen_distance = 10;   // mm: beyond the noise of a depth camera, below what hides anything
 
 bool is_point(const Eigen::Vector3f& point) { return point.allFinite() && point.z() > 0; }
 
@@ -56,6 +57,7 @@ Evaluation::Evaluation(const FramePair& pair, const Surface& source, SurfaceMap 
     const Eigen::Vector3f flow = pair.scene_flow(source.pixels[i].x(), source.pixels[i].y());
     truth_.push_back(source.points[i] + flow);  // NaN where the flow is
     moving_.push_back(flow.norm() > moving_distance);
+    seen_.push_back(is_seen(truth_.back()));
   }
 }
 
@@ -108,16 +110,36 @@ Metrics Evaluation::measure(const std::vector<Eigen::Vector3f>& points,
   return metrics;
 }
 
+bool Evaluation::is_seen(const Eigen::Vector3f& truth) const {
+  if (!is_point(truth)) return false;
+  const Eigen::Vector2d centre = camera_.project(truth.cast<double>()).array().round();
+  if (!(centre.cwiseAbs().maxCoeff() < 1e6)) return false;  // further out than any image
+  for (int v = static_cast<int>(centre.y()) - 1; v <= static_cast<int>(centre.y()) + 1; ++v)
+    for (int u = static_cast<int>(centre.x()) - 1; u <= static_cast<int>(centre.x()) + 1; ++u)
+      if (target_.points.contains(u, v) && is_point(target_.points(u, v)) &&
+          (truth - target_.points(u, v)).norm() < seen_distance)
+        return true;
+  return false;
+}
+
 std::optional<Metrics::Truth> Evaluation::measure_truth(const std::vector<Eigen::Vector3f>& points) const {
   const std::vector<float> errors = end_point_errors(points);
   const std::vector<float> all = known(errors);
   if (all.empty()) return std::nullopt;
-  std::vector<float> moving;
+  std::vector<float> moving, seen, hidden;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (moving_[i] && !std::isnan(errors[i])) moving.push_back(errors[i]);
+    if (std::isnan(errors[i])) continue;
+    if (moving_[i]) moving.push_back(errors[i]);
+    (seen_[i] ? seen : hidden).push_back(errors[i]);
   }
   const Spread spread = spread_of(all);
-  return Metrics::Truth{spread.mean, spread.sd, percentile_95(all), spread_of(moving).mean};
+  return Metrics::Truth{spread.mean,
+                        spread.sd,
+                        percentile_95(all),
+                        spread_of(moving).mean,
+                        spread_of(seen).mean,
+                        spread_of(hidden).mean,
+                        static_cast<double>(hidden.size()) / static_cast<double>(all.size())};
 }
 
 }  // namespace pliant

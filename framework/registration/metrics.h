@@ -24,6 +24,11 @@ struct Metrics {
     double epe_sd = 0;
     double epe_p95 = 0;          ///< the least error that 95 % of the points do not exceed
     double epe_moving_mean = 0;  ///< over points whose true motion exceeds 1 mm; 0 when there is none
+    /// Over points whose true position the target shows: one of its points lies within 10 mm there, in one of
+    /// the 3 x 3 pixels around.
+    double epe_seen_mean = 0;
+    double epe_hidden_mean = 0;  ///< over the others: covered, cut off or out of view
+    double hidden_share = 0;     ///< of the points with truth
   };
   std::optional<Truth> truth;
 };
@@ -52,6 +57,7 @@ class Evaluation {
   std::vector<float> end_point_errors(const std::vector<Eigen::Vector3f>& points) const;
 
  private:
+  bool is_seen(const Eigen::Vector3f& truth) const;
   std::optional<Metrics::Truth> measure_truth(const std::vector<Eigen::Vector3f>& points) const;
 
   Camera camera_;
@@ -59,6 +65,7 @@ class Evaluation {
   NearestPoints nearest_;
   std::vector<Eigen::Vector3f> truth_;  // true position per source point, NaN where unknown
   std::vector<bool> moving_;
+  std::vector<bool> seen_;
 };
 
 }  // namespace pliant

@@ -9,10 +9,10 @@ namespace pliant {
 ///
 /// The root is the square around the bounding box of the projection; level l divides it into 4^l cells. A
 /// leaf has its node at the point seen at the centre of its cell (point_at of pixel_index.h). A leaf with
-/// points, but none there, is virtual: it has no node, and the tree may grow in it. Below `virtual_levels` there
-/// are none of these: there such a cell is not part of the tree, and its points hang on the nodes around it. No
-/// cell loses all of its nodes: it is not divided where that would take away its node and give none, and a
-/// virtual one does not take back children with nodes.
+/// points, but none there, is virtual: it has no node, and the tree may grow in it. Below `virtual_levels`
+/// there are none of these: there such a cell is not part of the tree, and its points hang on the nodes
+/// around it. No cell loses all of its nodes: it is not divided where that would take away its node and give
+/// none, and a virtual one does not take back children with nodes.
 class QuadtreeGraph : public GraphBuilder {
  public:
   struct Settings {

@@ -22,6 +22,7 @@ struct Vertex {
   std::int32_t pixel[2];
   float error;
   std::uint8_t color[3];
+  std::uint8_t matched = 2;  // where none is told
 };
 
 struct Ply {
@@ -41,11 +42,13 @@ Ply read_ply(const std::filesystem::path& path) {
   Ply ply;
   std::size_t vertices = 0;
   std::size_t faces = 0;
+  bool tells_matches = false;
   for (std::string line; std::getline(stream, line) && line != "end_header";) {
     ply.header += line + "\n";
     std::istringstream words(line);
     std::string element, what;
     words >> element >> what;
+    tells_matches = tells_matches || line == "property uchar matched";
     if (element == "element") words >> (what == "vertex" ? vertices : faces);
   }
   ply.vertices.resize(vertices);
@@ -55,6 +58,7 @@ Ply read_ply(const std::filesystem::path& path) {
     read(stream, vertex.pixel);
     read(stream, vertex.error);
     read(stream, vertex.color);
+    if (tells_matches) read(stream, vertex.matched);
   }
   for (std::size_t i = 0; i < faces; ++i) {
     std::uint8_t corners = 0;
@@ -108,6 +112,19 @@ TEST(Ply, RefusesListsOfDifferentLength) {
   surface.normals.resize(2);
   surface.pixels.resize(2);
   EXPECT_THROW(write_ply((test_folder() / "a.ply").string(), {surface, {1}}), std::invalid_argument);
+}
+
+TEST(Ply, TellsWhichPointsAreMatchedWhereThatIsKnown) {
+  Surface surface;
+  surface.points.resize(2);
+  surface.normals.resize(2);
+  surface.pixels.resize(2);
+  const auto file = test_folder() / "a.ply";
+  write_ply(file.string(), {surface, {0, 0}, {}, {1, 0}});
+  const Ply ply = read_ply(file);
+  EXPECT_EQ(ply.vertices[0].matched, 1);
+  EXPECT_EQ(ply.vertices[1].matched, 0);
+  EXPECT_THROW(write_ply(file.string(), {surface, {0, 0}, {}, {1}}), std::invalid_argument);
 }
 
 TEST(Triangulate, JoinsNeighboursTowardsTheCamera) {
