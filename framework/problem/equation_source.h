@@ -15,7 +15,8 @@ std::string equation_source(const Energy& energy, const std::string& real);
 /// `stride` numbers a node.
 std::string transform_source(const NodeTransform& transform, int stride);
 
-/// The functions of loss.h as OpenCL C over `real`, and LOSS_VALUE(s, scale), LOSS_WEIGHT(s, scale) for one of them.
+/// The functions of loss.h as OpenCL C over `real`, and LOSS_VALUE(s, scale), LOSS_WEIGHT(s, scale) for one
+/// of them.
 std::string loss_source(const Loss& loss, const std::string& real);
 
 }  // namespace pliant
