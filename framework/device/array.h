@@ -9,8 +9,8 @@
 namespace pliant {
 
 /// Values that live on the host, on one device, or on both; each side is brought up to date when it is
-/// asked for. Reading on the host after the device wrote waits for the device. A copy goes through the host
-/// and shares nothing with its original.
+/// asked for. Reading on the host after the device wrote waits for the device. A copy shares nothing with its
+/// original; it is made where the values are, and waits for nothing.
 template <class T>
 class Array {
  public:
@@ -18,7 +18,16 @@ class Array {
   explicit Array(std::vector<T> values) : host_(std::move(values)), size_(host_.size()) {}
   /// Uninitialised values that a device will write.
   explicit Array(std::size_t size) : size_(size), host_is_current_(size == 0) {}
-  Array(const Array& other) : Array(other.host()) {}
+  Array(const Array& other)
+      : size_(other.size_), device_(other.device_), host_is_current_(other.host_is_current_) {
+    if (host_is_current_ || device_ == nullptr) {
+      host_ = other.host();
+      host_is_current_ = true;
+    } else {
+      buffer_ = device_->copy(other.buffer_, bytes());
+      device_is_current_ = true;
+    }
+  }
   Array(Array&&) noexcept = default;
   Array& operator=(const Array& other) { return *this = Array(other); }
   Array& operator=(Array&&) noexcept = default;

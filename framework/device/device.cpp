@@ -206,6 +206,17 @@ cl::Buffer Device::upload(const void* data, std::size_t bytes) const {
   return bytes == 0 ? allocate(0) : make_buffer(bytes, const_cast<void*>(data));
 }
 
+cl::Buffer Device::copy(const cl::Buffer& from, std::size_t bytes) const {
+  const cl::Buffer made = allocate(bytes);
+  if (bytes == 0) return made;
+  try {
+    queue_.enqueueCopyBuffer(from, made, 0, 0, bytes);
+  } catch (const cl::Error& error) {
+    fail(fmt::format("copying {} bytes", bytes), error);
+  }
+  return made;
+}
+
 void Device::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const {
   if (bytes == 0) return;
   try {

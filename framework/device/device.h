@@ -90,6 +90,9 @@ class Device {
     return upload(values.data(), sizeof(T) * values.size());
   }
 
+  /// A buffer with the values that another one will have by then; only enqueues.
+  cl::Buffer copy(const cl::Buffer& from, std::size_t bytes) const;
+
   /// Waits for everything enqueued so far.
   void write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const;
   /// Waits for everything enqueued so far.

@@ -71,6 +71,17 @@ TEST_F(ArrayTest, MovesFromOneDeviceToAnother) {
   EXPECT_THAT(values.host(), ElementsAre(112, 113));
 }
 
+TEST_F(ArrayTest, ACopyKeepsWhatTheDeviceHadWritten) {
+  Array<float> original(std::vector<float>{1, 2});
+  add(original, 1);
+  const Array<float> copy = original;  // enqueued before what comes next
+  add(original, 10);
+  EXPECT_THAT(copy.host(), ElementsAre(2, 3));
+  EXPECT_THAT(original.host(), ElementsAre(12, 13));
+  const Array<float> empty = Array<float>(std::size_t{0});
+  EXPECT_TRUE(Array<float>(empty).host().empty());
+}
+
 TEST_F(ArrayTest, ACopyIsIndependent) {
   Array<float> original(std::vector<float>{1, 2});
   add(original, 1);
