@@ -56,8 +56,13 @@ TEST_F(RunnerTest, ResultHasTheKeysThatOthersRead) {
               IsSupersetOf({"version", "commit", "device", "opencl_driver", "libraries", "seed"}));
   ASSERT_EQ(result["runs"].size(), 1U);
   const ordered_json& entry = result["runs"][0];
-  EXPECT_THAT(keys(entry), ElementsAre("name", "termination", "reason", "warnings", "counts", "metrics",
-                                       "initial", "aligned", "energy", "time_ms", "timing", "solver"));
+  EXPECT_THAT(keys(entry), ElementsAre("name", "termination", "reason", "warnings", "alignment", "counts",
+                                       "metrics", "initial", "aligned", "history", "returned_iteration",
+                                       "energy", "time_ms", "timing", "solver"));
+  EXPECT_THAT(keys(entry["alignment"]),
+              ElementsAre("method", "reason", "matches", "inliers", "rotation", "translation"));
+  ASSERT_EQ(entry["history"].size(), entry["counts"]["outer_iterations"].get<std::size_t>() + 1);
+  EXPECT_THAT(keys(entry["history"][0]), ElementsAre("residual_mean", "robust", "matched"));
   EXPECT_THAT(keys(entry["counts"]), ElementsAre("source_points", "nodes", "edges", "constraints", "unknowns",
                                                  "outer_iterations", "solver_iterations"));
   for (const char* stage : {"metrics", "initial", "aligned"})

@@ -134,7 +134,9 @@ RgbdFrame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
 }
 
 FramePair moved_plane() {
-  return {"plane", camera, render_plane(Eigen::Isometry3d::Identity(), 11), render_plane(a_motion(), 11), {}};
+  static const FramePair pair{
+      "plane", camera, render_plane(Eigen::Isometry3d::Identity(), 11), render_plane(a_motion(), 11), {}};
+  return pair;
 }
 
 AlignmentResult align(const Alignment& alignment, const FramePair& pair, std::uint64_t seed,
@@ -232,26 +234,72 @@ TEST(FeatureAlignment, RefusesUnrelatedImages) {
   EXPECT_THROW(align(*make_features(), pair, 1, true), DataError);
 }
 
+Parameters icp_parameters(const std::string& component) {
+  return {component,
+          {{"max_distance", 10.0},
+           {"max_angle", 20.0},
+           {"step", std::int64_t{1}},
+           {"levels", std::int64_t{4}},
+           {"iterations", std::int64_t{10}},
+           {"coarse_distance", 1.0},
+           {"coarse_angle", 75.0},
+           {"trim", 2.5},
+           {"search_angle", 30.0}}};
+}
+
+std::unique_ptr<Alignment> make_icp() {
+  Registry registry;
+  register_alignments(registry);
+  return registry.make<Alignment>(icp_parameters("icp"));
+}
+
+/// A plane out of which a bump grows.
+FramePair bulging_plane() {
+  FramePair pair = moved_plane();
+  pair.target.depth = pair.source.depth;
+  pair.target.color = {};
+  for (int v = 0; v < 240; ++v)
+    for (int u = 0; u < 320; ++u)
+      pair.target.depth(u, v) -=
+          static_cast<float>(25 * std::exp(-(std::pow(u - 200, 2) + std::pow(v - 100, 2)) / 1800.0));
+  return pair;
+}
+
+TEST(IcpAlignment, FindsHowAPlaneTurned) {
+  const AlignmentResult result = align(*make_icp(), moved_plane(), 1, false);
+  EXPECT_EQ(result.method, "icp");
+  EXPECT_THAT(result.reason, HasSubstr("two-way residual"));
+  const Eigen::Vector3d normal = a_motion().linear() * Eigen::Vector3d::UnitZ();
+  EXPECT_GT(normal.dot(result.motion.linear() * Eigen::Vector3d::UnitZ()), 0.9999);
+}
+
+TEST(IcpAlignment, StaysWhereThingsOnlyDeform) {
+  const AlignmentResult result = align(*make_icp(), bulging_plane(), 1, false);
+  EXPECT_EQ(result.method, "none");
+  EXPECT_TRUE(result.motion.matrix().isIdentity(0));
+  EXPECT_THAT(result.reason, HasSubstr("not clearly nearer"));
+}
+
+TEST(IcpAlignment, NeedsATarget) {
+  FramePair pair = moved_plane();
+  pair.target.depth = DepthImage(320, 240);
+  EXPECT_THAT([&] { align(*make_icp(), pair, 1, false); },
+              ThrowsMessage<DataError>(AllOf(HasSubstr("plane: alignment `icp` failed"),
+                                             HasSubstr("0 of 76800 points have a match"))));
+}
+
 std::unique_ptr<Alignment> make_automatic() {
   Registry registry;
   register_alignments(registry);
-  const Parameters icp("", {{"max_distance", 10.0},
-                            {"max_angle", 20.0},
-                            {"step", std::int64_t{1}},
-                            {"levels", std::int64_t{4}},
-                            {"iterations", std::int64_t{10}},
-                            {"coarse_distance", 1.0},
-                            {"coarse_angle", 75.0},
-                            {"trim", 3.0},
-                            {"search_angle", 30.0}});
-  return registry.make<Alignment>(Parameters("automatic", {{"icp", Parameters::Sections{{"icp", icp}}, true},
-                                                           {"near_enough", 20.0},
-                                                           {"scale", 1.0},
-                                                           {"ratio", 0.85},
-                                                           {"iterations", std::int64_t{2000}},
-                                                           {"inlier_distance", 30.0},
-                                                           {"min_inliers", std::int64_t{8}},
-                                                           {"max_deformation", 120.0}}));
+  return registry.make<Alignment>(
+      Parameters("automatic", {{"icp", Parameters::Sections{{"icp", icp_parameters("")}}, true},
+                               {"near_enough", 20.0},
+                               {"scale", 1.0},
+                               {"ratio", 0.85},
+                               {"iterations", std::int64_t{2000}},
+                               {"inlier_distance", 30.0},
+                               {"min_inliers", std::int64_t{8}},
+                               {"max_deformation", 120.0}}));
 }
 
 TEST(AutomaticAlignment, MovesWhereFeaturesBringTheSourceNearer) {
@@ -293,6 +341,13 @@ TEST(AutomaticAlignment, GoesByDepthWithoutColorTextureOrAgreementAndSaysWhy) {
     EXPECT_LT(std::abs(normal.dot(result.motion * middle - a_motion() * middle)), 1);
     EXPECT_GT(normal.dot(result.motion.linear() * Eigen::Vector3d::UnitZ()), 0.9999);
   }
+}
+
+TEST(AutomaticAlignment, StaysWhereThingsOnlyDeform) {
+  const AlignmentResult result = align(*make_automatic(), bulging_plane(), 1, false);
+  EXPECT_EQ(result.method, "none");
+  EXPECT_TRUE(result.motion.matrix().isIdentity(0));
+  EXPECT_THAT(result.reason, AllOf(HasSubstr("no features without colour"), HasSubstr("not clearly nearer")));
 }
 
 // Slid out of view along itself, the plane lies no nearer for being brought back.
