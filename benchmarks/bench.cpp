@@ -2,13 +2,12 @@
 
 #include <benchmark/benchmark.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <utility>
 #include <vector>
 
-#include "framework/core/error.h"
+#include "framework/io/file.h"
 
 namespace pliant::bench {
 namespace {
@@ -56,8 +55,8 @@ std::map<std::string, double> Timings::run() {
 
 void write_json(const Options& options, const nlohmann::ordered_json& measured) {
   if (options.json.empty()) return;
-  std::ofstream file(options.json);
-  if (!(file << measured.dump(2) << "\n")) throw DataError(options.json + ": cannot be written");
+  const std::string text = measured.dump(2) + "\n";
+  write_file(options.json, {text.begin(), text.end()});
 }
 
 }  // namespace pliant::bench
