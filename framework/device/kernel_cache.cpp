@@ -75,7 +75,7 @@ fs::path note_of(const fs::path& cache, const std::string& program) {
 fs::path open_kernel_cache() {
   const fs::path usual = usual_folder();
   const bool is_usual = !usual.empty() && can_be_used(usual);
-  const fs::path folder = is_usual ? usual : private_folder();
+  fs::path folder = is_usual ? usual : private_folder();
   if (!is_usual && !can_be_private(folder)) return {};
   // PoCL does not stand an empty one.
   const char* given = std::getenv("POCL_CACHE_DIR");
