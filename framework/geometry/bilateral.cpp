@@ -1,8 +1,10 @@
 #include "framework/geometry/bilateral.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "framework/geometry/depth_kernel.h"
 
@@ -11,15 +13,47 @@ namespace {
 
 class NoFilter : public DepthFilter {
  public:
-  std::optional<DepthMap> filter(Device&, const DepthMap&) const override { return std::nullopt; }
+  std::optional<DepthMap> filter(Device&, const DepthMap&, const Camera&) const override {
+    return std::nullopt;
+  }
 };
+
+constexpr int sampled_rows = 4;      // every so many rows: noise is the same in those between
+constexpr double least_sigma = 0.4;  // pixels: with less the neighbours weigh a twentieth of the pixel itself
+constexpr double greatest_sigma = 6;  // pixels: what would need more is smoothed beyond recognition
+
+/// Calls `take` with the depths of each three neighbours in the sampled rows that have depth.
+template <class Take>
+void for_each_triple(const DepthMap& map, Take take) {
+  const auto& depth = map.depth.host();
+  for (int v = 0; v < map.height; v += sampled_rows) {
+    const float* row = depth.data() + map.offset(0, v);
+    for (int u = 1; u + 1 < map.width; ++u)
+      if (std::max({row[u - 1], row[u], row[u + 1]}) < DepthMap::no_depth)
+        take(row[u - 1], row[u], row[u + 1]);
+  }
+}
+
+/// 0 where there are no values.
+double median(std::vector<float> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double median_depth(const DepthMap& map) {
+  std::vector<float> depths;
+  for_each_triple(map, [&](float, float centre, float) { depths.push_back(centre); });
+  return median(std::move(depths));
+}
 
 }  // namespace
 
 BilateralFilter::BilateralFilter(double sigma_space, double sigma_depth, int radius)
     : sigma_space_(sigma_space), sigma_depth_(sigma_depth), radius_(radius) {}
 
-std::optional<DepthMap> BilateralFilter::filter(Device& device, const DepthMap& map) const {
+std::optional<DepthMap> BilateralFilter::filter(Device& device, const DepthMap& map, const Camera&) const {
   // The kernel works with powers of two.
   const auto exponent = [](double distance, double sigma) {
     return static_cast<float>(distance * distance / (2 * sigma * sigma) * std::numbers::log2e);
@@ -64,6 +98,32 @@ DepthImage BilateralFilter::filter_reference(const DepthImage& depth) const {
   return filtered;
 }
 
+double estimate_noise(const DepthMap& map) {
+  std::vector<float> bends;
+  for_each_triple(map, [&](float left, float centre, float right) {
+    bends.push_back(std::abs(left - 2 * centre + right));
+  });
+  // The second difference of white noise has 6 times its variance; the median of a normal distribution's
+  // magnitude is 0.6745 standard deviations.
+  return median(std::move(bends)) / (0.6745 * std::sqrt(6.0));
+}
+
+BilateralByNoise::BilateralByNoise(double gain, double sigma_depth)
+    : gain_(gain), sigma_depth_(sigma_depth) {}
+
+double BilateralByNoise::sigma_space(const DepthMap& map, const Camera& camera) const {
+  const double spacing = median_depth(map) / camera.fx;
+  return spacing > 0 ? std::min(gain_ * estimate_noise(map) / spacing, greatest_sigma) : 0;
+}
+
+std::optional<DepthMap> BilateralByNoise::filter(Device& device, const DepthMap& map,
+                                                 const Camera& camera) const {
+  const double sigma = sigma_space(map, camera);
+  if (sigma < least_sigma) return std::nullopt;
+  const int radius = std::min(static_cast<int>(std::ceil(2 * sigma)), max_window_radius);
+  return BilateralFilter(sigma, sigma_depth_, radius).filter(device, map, camera);
+}
+
 void register_filters(Registry& registry) {
   registry.add<DepthFilter>("none", "Leaves depth as it is", {},
                             [](const Parameters&, const Registry&) { return std::make_unique<NoFilter>(); });
@@ -78,6 +138,21 @@ void register_filters(Registry& registry) {
         return std::make_unique<BilateralFilter>(parameters.real("sigma_space"),
                                                  parameters.real("sigma_depth"),
                                                  static_cast<int>(parameters.integer("radius")));
+      });
+  registry.add<DepthFilter>(
+      "bilateral_by_noise",
+      "The same with a window as wide as the noise of the image asks for, none where there is hardly any",
+      {
+          real("gain", 3.2)
+              .above(0)
+              .doc("sigma_d in pixels per standard deviation of the noise in distances between points"),
+          real("sigma_depth", 30)
+              .unit("mm")
+              .above(0)
+              .doc("sigma_c: how weights fall with difference in depth"),
+      },
+      [](const Parameters& parameters, const Registry&) {
+        return std::make_unique<BilateralByNoise>(parameters.real("gain"), parameters.real("sigma_depth"));
       });
 }
 

@@ -15,7 +15,7 @@ class BilateralFilter : public DepthFilter {
   /// max_window_radius.
   BilateralFilter(double sigma_space, double sigma_depth, int radius);
 
-  std::optional<DepthMap> filter(Device& device, const DepthMap& map) const override;
+  std::optional<DepthMap> filter(Device& device, const DepthMap& map, const Camera& camera) const override;
 
   /// Plain C++ reference of `filter`, 0 where there is no depth.
   DepthImage filter_reference(const DepthImage& depth) const;
@@ -24,6 +24,29 @@ class BilateralFilter : public DepthFilter {
   double sigma_space_;
   double sigma_depth_;
   int radius_;
+};
+
+/// How uncertain the depths of a map are: the standard deviation (mm) of white noise whose second differences
+/// along the rows would have the same median magnitude. Steps of depth hardly count, nor does a surface that
+/// bends little from pixel to pixel. 0 where no three pixels in a row have depth.
+double estimate_noise(const DepthMap& map);
+
+/// The bilateral filter [Eq. 3.1] with a window as wide as the noise asks for: sigma_d grows with the noise
+/// measured in distances between neighbouring points (median depth / focal length), by which it tilts
+/// normals. Where there is hardly any, depth stays as it is: what is smoothed without need loses its shape.
+class BilateralByNoise : public DepthFilter {
+ public:
+  /// `gain`: sigma_d in pixels per standard deviation of the noise in distances between points.
+  BilateralByNoise(double gain, double sigma_depth);
+
+  std::optional<DepthMap> filter(Device& device, const DepthMap& map, const Camera& camera) const override;
+
+  /// sigma_d in pixels for a map.
+  double sigma_space(const DepthMap& map, const Camera& camera) const;
+
+ private:
+  double gain_;
+  double sigma_depth_;
 };
 
 }  // namespace pliant

@@ -13,10 +13,11 @@ class DepthFilter {
   static constexpr const char* kind = "filter";
   virtual ~DepthFilter() = default;
   /// The map with other values at the same pixels; none when it stays as it is. Only enqueues.
-  virtual std::optional<DepthMap> filter(Device& device, const DepthMap& map) const = 0;
+  /// `camera`: the one that took it.
+  virtual std::optional<DepthMap> filter(Device& device, const DepthMap& map, const Camera& camera) const = 0;
 };
 
-/// Adds `none` and `bilateral`.
+/// Adds `none`, `bilateral` and `bilateral_by_noise`.
 void register_filters(Registry& registry);
 
 }  // namespace pliant

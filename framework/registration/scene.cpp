@@ -15,7 +15,7 @@ DepthMap make_depth_map(const RgbdFrame& frame, StageTimes& times) {
 
 PointSet make_target_map(const FramePair& pair, const Method& method, Device& device, StageTimes& times) {
   const DepthMap depth = make_depth_map(pair.target, times);
-  const auto filtered = method.filter->filter(device, depth);
+  const auto filtered = method.filter->filter(device, depth, pair.camera);
   return make_surface_map(device, filtered ? *filtered : depth, pair.camera);
 }
 
@@ -37,7 +37,7 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   check(pair);
   // Enqueued first: the device makes the surfaces while the host finds the alignment.
   const DepthMap depth = make_depth_map(pair.source, times);
-  const auto filtered = method.filter->filter(device, depth);
+  const auto filtered = method.filter->filter(device, depth, pair.camera);
   const PointSet map = make_surface_map(device, filtered ? *filtered : depth, pair.camera);
   std::optional<PointSet> unfiltered_map;
   if (filtered) unfiltered_map = make_surface_map(device, depth, pair.camera);

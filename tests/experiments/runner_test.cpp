@@ -68,7 +68,8 @@ TEST_F(RunnerTest, ResultHasTheKeysThatOthersRead) {
   for (const char* stage : {"metrics", "initial", "aligned"})
     EXPECT_THAT(keys(entry[stage]),
                 ElementsAre("residual_mean", "residual_sd", "coverage", "nearest_mean", "nearest_sd",
-                            "epe_mean", "epe_sd", "epe_p95", "epe_moving_mean"));
+                            "epe_mean", "epe_sd", "epe_p95", "epe_moving_mean", "epe_seen_mean",
+                            "epe_hidden_mean", "hidden_share"));
   EXPECT_THAT(keys(entry["energy"]), ElementsAre("initial", "final", "per_iteration"));
   EXPECT_EQ(entry["time_ms"].begin().key(), "total");
   EXPECT_THAT(keys(entry["solver"]), ElementsAre("name", "linear_solver", "termination"));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "framework/core/registry.h"
 #include "tests/geometry/made_depth.h"
@@ -16,7 +17,7 @@ const Camera kCamera{300, 290, 84.5, 40, 165, 83};
 
 DepthImage filtered(const BilateralFilter& filter, const RgbdFrame& frame) {
   Device device;
-  return to_image(*filter.filter(device, DepthMap(frame)));
+  return to_image(*filter.filter(device, DepthMap(frame), Camera{}));
 }
 
 /// Largest difference in mm; infinite where only one of both has depth.
@@ -89,12 +90,53 @@ TEST(Bilateral, IsMadeByName) {
   Device device;
   const DepthMap map(made_depth(kCamera));
   const auto none = registry.make<DepthFilter>(Parameters("none", {}));
-  EXPECT_FALSE(none->filter(device, map).has_value());
+  EXPECT_FALSE(none->filter(device, map, kCamera).has_value());
   const Parameters bilateral("bilateral",
                              {{"sigma_space", 4.5}, {"sigma_depth", 30.0}, {"radius", std::int64_t{6}}});
-  const auto filter = registry.make<DepthFilter>(bilateral)->filter(device, map);
+  const auto filter = registry.make<DepthFilter>(bilateral)->filter(device, map, kCamera);
   ASSERT_TRUE(filter.has_value());
   EXPECT_EQ(to_image(*filter).pixels(), filtered(BilateralFilter(4.5, 30, 6), made_depth(kCamera)).pixels());
+}
+
+/// A gently curved wall with white noise.
+DepthMap noisy_wall(double sigma, const Camera& camera, double distance = 800) {
+  RgbdFrame frame;
+  frame.depth = DepthImage(camera.width, camera.height);
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0, sigma);
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+      frame.depth(u, v) = static_cast<float>(distance + 5 * std::sin(0.03 * u) + (u > 90 ? 60 : 0) +
+                                             (sigma > 0 ? noise(random) : 0.0));
+  return DepthMap(frame);
+}
+
+TEST(Noise, IsEstimatedWhateverTheShape) {
+  for (const double sigma : {0.2, 1.0, 4.0})
+    EXPECT_NEAR(estimate_noise(noisy_wall(sigma, kCamera)), sigma, 0.06 * sigma);
+  EXPECT_LT(estimate_noise(noisy_wall(0, kCamera)), 0.005);
+  EXPECT_EQ(estimate_noise(DepthMap(RgbdFrame{DepthImage(20, 20), {}, {}})), 0) << "nothing is seen";
+}
+
+TEST(BilateralByNoise, WindowsGrowWithTheNoiseInDistancesBetweenPoints) {
+  const BilateralByNoise filter(3, 30);
+  const double spacing = 800 / kCamera.fx;
+  EXPECT_NEAR(filter.sigma_space(noisy_wall(1, kCamera), kCamera), 3 / spacing, 0.1);
+  Camera fine = kCamera;
+  fine.fx *= 2;  // half the distance between points: the same noise tilts normals twice as much
+  EXPECT_NEAR(filter.sigma_space(noisy_wall(1, fine), fine), 6 / spacing, 0.2);
+  EXPECT_EQ(filter.sigma_space(noisy_wall(50, kCamera), kCamera), 6) << "no wider";
+}
+
+TEST(BilateralByNoise, FiltersAsBilateralDoesOrNotAtAll) {
+  Device device;
+  const BilateralByNoise filter(3, 30);
+  const DepthMap noisy = noisy_wall(1, kCamera);
+  const double sigma = filter.sigma_space(noisy, kCamera);
+  const BilateralFilter same(sigma, 30, static_cast<int>(std::ceil(2 * sigma)));
+  EXPECT_EQ(filter.filter(device, noisy, kCamera)->depth.host(),
+            same.filter(device, noisy, kCamera)->depth.host());
+  EXPECT_FALSE(filter.filter(device, noisy_wall(0.05, kCamera), kCamera));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(PointsOnGrid, AreAtTheCentresOfTheMasks) {
   EXPECT_EQ(grid_pixels(dense, 8),
             (Pixels{{4, 12}, {4, 20}, {4, 28}, {12, 12}, {12, 20}, {12, 28}, {20, 12}, {20, 20}, {20, 28}}));
   EXPECT_EQ(points_on_grid(dense, 1).size(), dense.size());
-  EXPECT_TRUE(points_on_grid({}, 8).empty());
+  EXPECT_TRUE(points_on_grid(Surface{}, 8).empty());
 }
 
 TEST(PointsOnGrid, AreNoneBesideTheObject) {
