@@ -207,7 +207,7 @@ cl::Buffer Device::upload(const void* data, std::size_t bytes) const {
 }
 
 cl::Buffer Device::copy(const cl::Buffer& from, std::size_t bytes) const {
-  const cl::Buffer made = allocate(bytes);
+  cl::Buffer made = allocate(bytes);
   if (bytes == 0) return made;
   try {
     queue_.enqueueCopyBuffer(from, made, 0, 0, bytes);
