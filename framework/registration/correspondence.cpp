@@ -62,10 +62,12 @@ void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, cons
 void ProjectiveCorrespondence::measure(Device& device, const PointSet& moved, const Target& target,
                                        Array<float>& distances) const {
   auto kernel = projection_kernel(device, "measure");
-  device.run("residual", kernel, distances.size(), 64, static_cast<cl_int>(distances.size()),
-             moved.points.device(device), moved.normals.device(device), pinhole(target.camera),
-             image_size(target.camera), target.points.device(device), target.normals.device(device),
-             max_distance_, least_cosine_, least_facing_, distances.write_device(device));
+  const auto width = static_cast<std::size_t>(device.width());
+  device.run("residual", kernel, (distances.size() + width - 1) / width, 16,
+             static_cast<cl_int>(distances.size()), moved.points.device(device), moved.normals.device(device),
+             pinhole(target.camera), image_size(target.camera), target.points.device(device),
+             target.normals.device(device), max_distance_, least_cosine_, least_facing_,
+             distances.write_device(device));
 }
 
 void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const Target& target,
@@ -117,6 +119,7 @@ std::size_t ProjectiveCorrespondence::walk(const Target& target, const Eigen::Ve
     const Eigen::Vector3f n = finite_or_none(target.normals, pixel);
     const Eigen::Vector3f foot = point - (point - at(target.points, pixel)).dot(n) * n;
     const Pixel next = target_pixel_reference(target, foot);
+    if (next == pixel) return pixel;
     if (!next || !(distance(*next) < distance(pixel))) break;
     pixel = *next;
   }

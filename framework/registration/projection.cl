@@ -106,17 +106,18 @@ int is_rim(int pixel, int rim, float4 camera, int2 size, global const float* tar
 int closest_pixel(float3 p, int pixel, int steps, float4 camera, int2 size, global const float* target_points,
                   global const float* target_normals) {
   float least = distance(p, vload3(pixel, target_points));
-  int is_nearer = 1;
+  int is_nearer = 1, is_foot = 0;
   for (int step = 0; step < steps && is_nearer; ++step) {
     const float3 n = load_finite(pixel, target_normals);
     const float3 foot = p - dot(p - vload3(pixel, target_points), n) * n;
     const int next = target_pixel(foot, camera, size, target_points);
     const float away = next >= 0 ? distance(p, vload3(next, target_points)) : least;
+    is_foot = next == pixel;
     is_nearer = away < least;
     if (is_nearer) pixel = next;
     least = fmin(away, least);
   }
-  is_nearer = 1;
+  is_nearer = !is_foot;
   for (int step = 0; step < steps && is_nearer; ++step) {
     const int u = pixel % size.x, v = pixel / size.x;
     is_nearer = 0;
@@ -190,39 +191,102 @@ kernel void find_in_force(int count, global const float* confidence, global int*
   *found = i < count;
 }
 
+// The pixels that WIDTH points, of which `count` are there, project to, and the points and normals of the
+// target there; (0, 0, 0) where there is none. What target_pixel says, but rounded and divided for all at
+// once.
+void load_targets(Vector p, int count, float4 camera, int2 size, global const float* target_points,
+                  global const float* target_normals, Vector* points, Vector* normals) {
+  const Lanes u = camera.x * p.x / p.z + camera.z, v = camera.y * p.y / p.z + camera.w;
+  const Lanes left = floor(u), top = floor(v);
+  const Truth is_inside = p.z > (Lanes)0 && u > (Lanes)-0.5f && v > (Lanes)-0.5f &&
+                          u < (Lanes)(size.x - 0.5f) && v < (Lanes)(size.y - 0.5f);
+  float column[WIDTH], row[WIDTH], x[WIDTH], y[WIDTH], z[WIDTH], nx[WIDTH], ny[WIDTH], nz[WIDTH];
+  STORE(WHERE(is_inside, left + WHERE(u - left >= (Lanes)0.5f, (Lanes)1)), column);
+  STORE(select((Lanes)-1, top + WHERE(v - top >= (Lanes)0.5f, (Lanes)1), is_inside), row);
+  for (int lane = 0; lane < WIDTH; ++lane) {
+    float3 q = 0, n = 0;
+    if (lane < count && row[lane] >= 0) {
+      const int pixel = (int)row[lane] * size.x + (int)column[lane];
+      q = load_finite(pixel, target_points);
+      n = load_finite(pixel, target_normals);
+    }
+    x[lane] = q.x;
+    y[lane] = q.y;
+    z[lane] = q.z;
+    nx[lane] = n.x;
+    ny[lane] = n.y;
+    nz[lane] = n.z;
+  }
+  const Vector q = {LOAD(x), LOAD(y), LOAD(z)}, n = {LOAD(nx), LOAD(ny), LOAD(nz)};
+  *points = only(q.z > (Lanes)0, q);
+  *normals = n;
+}
+
 // Distance of each point to the target point at its pixel where it may be seen and that is acceptable, else
-// -1.
+// -1. WIDTH points a work-item.
 kernel void measure(int count, global const float* moved, global const float* normals, float4 camera,
                     int2 size, global const float* target_points, global const float* target_normals,
                     float max_distance, float least_cosine, float least_facing, global float* distances) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
-  const float3 p = vload3(i, moved), normal = vload3(i, normals);
-  const int pixel = target_pixel(p, camera, size, target_points);
-  const int is_accepted =
-      pixel >= 0 && is_facing(p, normal, least_facing) &&
-      is_acceptable(p, normal, pixel, target_points, target_normals, max_distance, least_cosine);
-  distances[i] = is_accepted ? distance(p, vload3(pixel, target_points)) : -1;
+  const int first = get_global_id(0) * WIDTH;
+  if (first >= count) return;
+  const Vector p = load_vectors(moved + 3 * first, count - first);
+  const Vector n = load_vectors(normals + 3 * first, count - first);
+  Vector q, m;
+  load_targets(p, count - first, camera, size, target_points, target_normals, &q, &m);
+  const Vector way = {p.x - q.x, p.y - q.y, p.z - q.z};
+  const Lanes distance = sqrt(inner(way, way));
+  const Truth has_normal = inner(n, n) > (Lanes)0;
+  const Truth is_facing = !has_normal || -inner(n, p) >= least_facing * sqrt(inner(p, p));
+  const Truth is_alike = !(has_normal && inner(m, m) > (Lanes)0) || inner(n, m) >= (Lanes)least_cosine;
+  float values[WIDTH];
+  STORE(
+      select((Lanes)-1, distance, q.z > (Lanes)0 && is_facing && is_alike && distance <= (Lanes)max_distance),
+      values);
+  for (int lane = 0; lane < min(WIDTH, count - first); ++lane) distances[first + lane] = values[lane];
 }
 
-// Per work-item of CHUNK points, in order: the sum of the residuals that are known, how many those are, how
-// many points have one or project onto a target point, how many points are lost (not finite, or so far away
-// that squares are not), and the sum of the squares of all where one that is not known, or longer, is `cut`.
+float total(Lanes lanes) {
+  float values[WIDTH];
+  STORE(lanes, values);
+  float sum = 0;
+  for (int lane = 0; lane < WIDTH; ++lane) sum += values[lane];
+  return sum;
+}
+
+// Per work-item of CHUNK points, in a fixed order: the sum of the residuals that are known, how many those
+// are, how many points have one or project onto a target point, how many points are lost (not finite, or so
+// far away that squares are not), and the sum of the squares of all where one that is not known, or longer,
+// is `cut`.
 kernel void sum_residuals(int count, global const float* moved, float4 camera, int2 size,
                           global const float* target_points, global const float* residual, float cut,
                           global float8* partials) {
-  const int first = get_global_id(0) * CHUNK;
-  if (first >= count) return;
-  float8 sum = 0;
-  for (int i = first; i < min(first + CHUNK, count); ++i) {
-    const float3 p = vload3(i, moved);
-    if (residual[i] >= 0)
-      sum += (float8)(residual[i], 1, 1, 0, fmin(residual[i] * residual[i], cut * cut), 0, 0, 0);
-    else
-      sum += (float8)(0, 0, target_pixel(p, camera, size, target_points) >= 0, 0, cut * cut, 0, 0, 0);
-    if (!all(fabs(p) < FARTHEST)) sum.s3 += 1;
+  const int chunk = get_global_id(0) * CHUNK;
+  const int end = min(chunk + CHUNK, count);
+  if (chunk >= count) return;
+  Lanes sum = 0, matched = 0, lost = 0, squares = 0;
+  int landed = 0;
+  for (int first = chunk; first < end; first += WIDTH) {
+    const Vector p = load_vectors(moved + 3 * first, end - first);
+    float values[WIDTH];
+    for (int lane = 0; lane < WIDTH; ++lane) {
+      values[lane] = first + lane < end ? residual[first + lane] : -1;
+      if (first + lane < end && values[lane] < 0)
+        landed += target_pixel(vload3(first + lane, moved), camera, size, target_points) >= 0;
+    }
+    const Lanes r = LOAD(values);
+    const Lanes there = WHERE(LANE_OFFSETS < (Lanes)(end - first), (Lanes)1);
+    const Lanes known = WHERE(r >= (Lanes)0, (Lanes)1);
+    const Lanes counted = select((Lanes)cut, fmin(r, (Lanes)cut), r >= (Lanes)0);
+    const Truth is_finite =
+        fabs(p.x) < (Lanes)FARTHEST && fabs(p.y) < (Lanes)FARTHEST && fabs(p.z) < (Lanes)FARTHEST;
+    sum += known * fmax(r, (Lanes)0);
+    matched += known;
+    lost += there - WHERE(is_finite, there);
+    squares += there * counted * counted;
   }
-  partials[get_global_id(0)] = sum;
+  const float known = total(matched);
+  partials[get_global_id(0)] =
+      (float8)(total(sum), known, known + landed, total(lost), total(squares), 0, 0, 0);
 }
 
 kernel void total_residual(int count, global const float8* partials, global float8* total) {

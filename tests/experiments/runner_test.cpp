@@ -88,7 +88,7 @@ TEST_F(RunnerTest, ResultSaysWhatTheRegistrationCameTo) {
 /// Sees everything 3 mm further away than it is.
 class Shifted : public DepthFilter {
  public:
-  std::optional<DepthMap> filter(Device&, const DepthMap& map) const override {
+  std::optional<DepthMap> filter(Device&, const DepthMap& map, const Camera&) const override {
     DepthMap shifted = map;
     for (float& depth : shifted.depth.write_host()) depth += depth < DepthMap::no_depth ? 3.0F : 0.0F;
     return shifted;

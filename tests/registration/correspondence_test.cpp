@@ -10,6 +10,13 @@
 #include "framework/registration/residual.h"
 
 namespace pliant {
+
+void PrintTo(const ProjectiveOptions& options, std::ostream* out) {
+  *out << options.max_distance << " mm, " << options.max_angle << " rad, facing " << options.max_view_angle
+       << " rad, " << options.search_radius << " pixels around, " << options.steps << " steps, rim "
+       << options.rim << (options.symmetric ? ", symmetric" : "");
+}
+
 namespace {
 
 constexpr Camera camera{50, 50, 20, 15, 41, 31};
@@ -46,12 +53,6 @@ PointSet make_moved(std::mt19937& random, std::size_t count) {
     normals.insert(normals.end(), normal.data(), normal.data() + 3);
   }
   return {Array<float>(std::move(points)), Array<float>(std::move(normals))};
-}
-
-void PrintTo(const ProjectiveOptions& options, std::ostream* out) {
-  *out << options.max_distance << " mm, " << options.max_angle << " rad, facing " << options.max_view_angle
-       << " rad, " << options.search_radius << " pixels around, " << options.steps << " steps, rim "
-       << options.rim << (options.symmetric ? ", symmetric" : "");
 }
 
 ProjectiveOptions limits(double max_distance, double max_angle, int search_radius = 0) {

@@ -7,6 +7,7 @@
 
 #include "framework/core/error.h"
 #include "framework/deformation/warp.h"
+#include "framework/geometry/pixel_index.h"
 #include "framework/registration/metrics.h"
 #include "tests/experiments/experiment_files.h"
 #include "tests/problem/sheet_problem.h"

@@ -26,7 +26,9 @@ class QuarterTurn : public Alignment {
 
 class Unfiltered : public DepthFilter {
  public:
-  std::optional<DepthMap> filter(Device&, const DepthMap&) const override { return std::nullopt; }
+  std::optional<DepthMap> filter(Device&, const DepthMap&, const Camera&) const override {
+    return std::nullopt;
+  }
 };
 
 Method method_with(std::unique_ptr<DepthFilter> filter) {
