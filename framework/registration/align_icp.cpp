@@ -100,7 +100,7 @@ std::vector<Parameter> icp_rows() {
           .unit("degree")
           .range(0, 90)
           .doc("Starts are tried that put the middle of the source on the target's, unturned and turned by "
-               "this about each axis; 0: only where it is"),
+               "this, and by twice this, about each axis; 0: only where it is"),
   };
 }
 

@@ -25,7 +25,9 @@ struct RigidIcpOptions {
   /// does not pull at the rest then. 0: none are.
   double trim = 2.5;
   /// Radians. Beside the given start, starts are tried that put the middle of the source on that of the
-  /// target, unturned and turned by this about each axis, both ways; 0: only the given one.
+  /// target: unturned, turned by this about each axis and about both diagonals of x and y, and by twice this
+  /// about x and y, all of them both ways. The best by TwoWayResidual after the coarsest level goes on. 0:
+  /// only the given one.
   double search_angle = 0.5236;
 };
 
