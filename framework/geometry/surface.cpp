@@ -88,7 +88,7 @@ Eigen::Vector3d fit_normal(const Moments& moments) {
 Eigen::Vector3d find_normal(const PointImage& points, int u, int v, int radius, float depth_step) {
   const Eigen::Vector3d point = points(u, v).cast<double>();
   for (int reach = radius; reach <= std::max(radius, widest_normal_radius); reach *= 2) {
-    const Eigen::Vector3d normal = fit_normal(collect_window(points, u, v, reach, depth_step));
+    Eigen::Vector3d normal = fit_normal(collect_window(points, u, v, reach, depth_step));
     if (std::abs(normal.dot(point)) >= edge_on * point.z()) return normal;
   }
   return Eigen::Vector3d::Zero();
