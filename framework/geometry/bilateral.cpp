@@ -113,7 +113,7 @@ BilateralByNoise::BilateralByNoise(double gain, double sigma_depth)
 
 double BilateralByNoise::sigma_space(const DepthMap& map, const Camera& camera) const {
   const double spacing = median_depth(map) / camera.fx;
-  return spacing > 0 ? std::min(gain_ * estimate_noise(map) / spacing, greatest_sigma) : 0;
+  return spacing > 0 ? std::min(gain_ * std::sqrt(estimate_noise(map) / spacing), greatest_sigma) : 0;
 }
 
 std::optional<DepthMap> BilateralByNoise::filter(Device& device, const DepthMap& map,
@@ -143,9 +143,11 @@ void register_filters(Registry& registry) {
       "bilateral_by_noise",
       "The same with a window as wide as the noise of the image asks for, none where there is hardly any",
       {
-          real("gain", 3.2)
+          real("gain", 2.2)
               .above(0)
-              .doc("sigma_d in pixels per standard deviation of the noise in distances between points"),
+              .doc("sigma_d in pixels where the noise is as large as the distance between neighbouring "
+                   "points; it goes "
+                   "with its square root"),
           real("sigma_depth", 30)
               .unit("mm")
               .above(0)

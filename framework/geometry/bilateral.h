@@ -31,12 +31,14 @@ class BilateralFilter : public DepthFilter {
 /// bends little from pixel to pixel. 0 where no three pixels in a row have depth.
 double estimate_noise(const DepthMap& map);
 
-/// The bilateral filter [Eq. 3.1] with a window as wide as the noise asks for: sigma_d grows with the noise
-/// measured in distances between neighbouring points (median depth / focal length), by which it tilts
-/// normals. Where there is hardly any, depth stays as it is: what is smoothed without need loses its shape.
+/// The bilateral filter [Eq. 3.1] with a window as wide as the noise asks for, so that normals are equally
+/// certain whatever the camera. White noise of standard deviation s (mm) tilts the normals of points that lie
+/// d mm apart (median depth / focal length) by about s / d; a Gaussian window of sigma_d pixels takes that
+/// down by 1 / sigma_d^2: sigma_d = gain * sqrt(s / d). Where there is hardly any noise, depth stays as it
+/// is: what is smoothed without need loses its shape.
 class BilateralByNoise : public DepthFilter {
  public:
-  /// `gain`: sigma_d in pixels per standard deviation of the noise in distances between points.
+  /// `gain`: sigma_d in pixels where s = d.
   BilateralByNoise(double gain, double sigma_depth);
 
   std::optional<DepthMap> filter(Device& device, const DepthMap& map, const Camera& camera) const override;

@@ -121,10 +121,10 @@ TEST(Noise, IsEstimatedWhateverTheShape) {
 TEST(BilateralByNoise, WindowsGrowWithTheNoiseInDistancesBetweenPoints) {
   const BilateralByNoise filter(3, 30);
   const double spacing = 800 / kCamera.fx;
-  EXPECT_NEAR(filter.sigma_space(noisy_wall(1, kCamera), kCamera), 3 / spacing, 0.1);
+  EXPECT_NEAR(filter.sigma_space(noisy_wall(1, kCamera), kCamera), 3 / std::sqrt(spacing), 0.1);
   Camera fine = kCamera;
   fine.fx *= 2;  // half the distance between points: the same noise tilts normals twice as much
-  EXPECT_NEAR(filter.sigma_space(noisy_wall(1, fine), fine), 6 / spacing, 0.2);
+  EXPECT_NEAR(filter.sigma_space(noisy_wall(1, fine), fine), 3 * std::sqrt(2 / spacing), 0.1);
   EXPECT_EQ(filter.sigma_space(noisy_wall(50, kCamera), kCamera), 6) << "no wider";
 }
 
@@ -136,7 +136,7 @@ TEST(BilateralByNoise, FiltersAsBilateralDoesOrNotAtAll) {
   const BilateralFilter same(sigma, 30, static_cast<int>(std::ceil(2 * sigma)));
   EXPECT_EQ(filter.filter(device, noisy, kCamera)->depth.host(),
             same.filter(device, noisy, kCamera)->depth.host());
-  EXPECT_FALSE(filter.filter(device, noisy_wall(0.05, kCamera), kCamera));
+  EXPECT_FALSE(filter.filter(device, noisy_wall(0.03, kCamera), kCamera));
 }
 
 }  // namespace
