@@ -21,6 +21,9 @@ class PointSelection {
   /// Chooses anew from how far each point of the surface lies from its target: `residuals`, mm, one a point,
   /// negative where it is not known. Returns whether the selection changed.
   virtual bool adapt(Device& device, const Array<float>& residuals) = 0;
+
+  /// Whether adapt() never changes anything, so that nobody needs to know the residuals.
+  virtual bool is_fixed() const { return false; }
 };
 
 /// A selection (of whichever kind) that never changes.
@@ -30,6 +33,7 @@ class FixedSelection : public Selection {
   explicit FixedSelection(std::vector<int> points) : points_(std::move(points)) {}
   const std::vector<int>& points() const override { return points_; }
   bool adapt(Device&, const Array<float>&) override { return false; }
+  bool is_fixed() const override { return true; }
 
  private:
   std::vector<int> points_;

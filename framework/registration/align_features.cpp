@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <flann/flann.hpp>
+#include <future>
 #include <memory>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -290,8 +291,12 @@ PointMatches keep_deformable(const PointMatches& matches, const Eigen::Isometry3
 }
 
 PointMatches match_features(const FramePair& pair, double ratio, double scale) {
+  // Both at once: most of the detector runs on one processor only.
+  auto found = std::async(std::launch::async, [&] {
+    return find_features(pair.target, pair.camera, scale, pair.name + ", target");
+  });
   Features source = find_features(pair.source, pair.camera, scale, pair.name + ", source");
-  Features target = find_features(pair.target, pair.camera, scale, pair.name + ", target");
+  Features target = found.get();
   return match(source, target, ratio);
 }
 

@@ -36,7 +36,7 @@ struct Skeleton {
 
 /// Constraints and the problem that they and a skeleton make: what each adaptation makes anew.
 struct Model {
-  Array<int> selected;   ///< the points that are constrained
+  Array<int> selected;   ///< the points that are constrained, among those that are followed
   Array<float> weights;  ///< of these; empty: all the same
   std::shared_ptr<Constraints> constraints;
   std::unique_ptr<Problem> problem;
@@ -45,6 +45,12 @@ struct Model {
 void check_selection(const Scene& scene, const char* what, const std::vector<int>& selected) {
   if (selected.empty())
     throw DataError(fmt::format("{}: no {} falls on the source; choose a finer one", scene.pair.name, what));
+}
+
+std::vector<int> first_indices(std::size_t count) {
+  std::vector<int> indices(count);
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
 }
 
 std::shared_ptr<Constraints> make_constraints(const std::vector<Eigen::Vector3f>& points,
@@ -77,9 +83,9 @@ std::shared_ptr<Constraints> make_feature_constraints(Device& device, const Meth
   return constraints;
 }
 
-/// Whether an energy becomes a term of the problem.
+/// Whether an energy becomes a term of the problem: one that never counts would only be evaluated in vain.
 bool applies(const Method& method, const Energy& energy) {
-  return !energy.uses_features() || uses_features(method);
+  return energy.weight > 0 && (!energy.uses_features() || uses_features(method));
 }
 
 std::vector<Term> make_terms(Device& device, const Method& method, const Scene& scene,
@@ -115,12 +121,13 @@ Skeleton make_skeleton(const Scene& scene, const Method& method, Device& device,
 }
 
 Model make_model(const Scene& scene, const Method& method, Device& device, const Skeleton& skeleton,
-                 const PointSelection& selection) {
+                 const PointSelection& selection, bool follows_all) {
   const std::vector<int>& samples = selection.points();
   check_selection(scene, "constraint", samples);
   Array<int> selected(samples);
   auto constraints = make_constraints(pick(scene.aligned.points, samples),
                                       pick_influences(device, skeleton.influences, selected));
+  if (!follows_all) selected = Array<int>(first_indices(samples.size()));
   auto problem = std::make_unique<Problem>(DeformationGraph{skeleton.positions, skeleton.edges},
                                            make_terms(device, method, scene, skeleton.positions, constraints),
                                            method.length_unit, *method.transform);
@@ -146,9 +153,12 @@ class Registration {
         samples_(timed(times_, "acs",
                        [&] { return method.sampler->select(device, scene_.aligned, pair.camera); })),
         skeleton_(std::make_shared<Skeleton>(make_skeleton(scene_, method, device, *nodes_, times_))),
+        follows_all_(!nodes_->is_fixed() || !samples_->is_fixed()),
+        sampled_(follows_all_ ? PointSet{}
+                              : pick_points(device, scene_.rest, Array<int>(samples_->points()))),
         model_(make_new_model()),
-        moved_(unwritten(scene_.rest)),
-        meter_(device, *method.correspondence, scene_.target, scene_.aligned.size(), method.stopping.cut) {
+        moved_(unwritten(followed())),
+        meter_(device, *method.correspondence, scene_.target, moved_.points.size() / 3, method.stopping.cut) {
     update_source();
   }
 
@@ -195,9 +205,13 @@ class Registration {
   }
 
   void update_source() {
-    warp(device_, scene_.rest, skeleton_->influences, skeleton_->node_points, model_.problem->unknowns(),
-         moved_);
+    warp(device_, followed(), follows_all_ ? skeleton_->influences : model_.constraints->influences,
+         skeleton_->node_points, model_.problem->unknowns(), moved_);
   }
+
+  /// The points that are deformed and measured in each iteration. Where nodes and constraints stay as they
+  /// are, the constrained points are enough.
+  const PointSet& followed() const { return follows_all_ ? scene_.rest : sampled_; }
 
   /// Where an iteration led.
   struct State {
@@ -224,25 +238,23 @@ class Registration {
     return iteration > static_cast<std::size_t>(method_.schedule.iterations);
   }
 
-  void deform(const PointSet& rest) {
-    warp(device_, rest, best_.skeleton->influences, best_.skeleton->node_points, best_.unknowns, moved_);
-  }
-
   /// Puts the source where the best iteration led, and finds what is matched there.
   void deform_best() {
-    deform(scene_.rest);
+    registered_ = unwritten(scene_.rest);
+    warp(device_, scene_.rest, best_.skeleton->influences, best_.skeleton->node_points, best_.unknowns,
+         registered_);
     matched_ = find_matched();
-    if (scene_.unfiltered) deform_unfiltered();
+    deform_unfiltered();
   }
 
   std::vector<std::uint8_t> find_matched() {
-    std::vector<int> all(scene_.aligned.size());
-    std::iota(all.begin(), all.end(), 0);
+    const std::size_t count = scene_.aligned.size();
     Constraints constraints;
     constraints.points = scene_.rest.points;
-    constraints.data = Array<float>(6 * all.size());
-    constraints.confidence = Array<float>(all.size());
-    method_.correspondence->match(device_, moved_, Array<int>(std::move(all)), scene_.target, constraints);
+    constraints.data = Array<float>(6 * count);
+    constraints.confidence = Array<float>(count);
+    method_.correspondence->match(device_, registered_, Array<int>(first_indices(count)), scene_.target,
+                                  constraints);
     const auto& confidence = constraints.confidence.host();
     std::vector<std::uint8_t> matched(confidence.size());
     std::transform(confidence.begin(), confidence.end(), matched.begin(),
@@ -254,11 +266,9 @@ class Registration {
   /// applied to it: nothing determines what they do across the surface they were fitted to, and noise would
   /// be stretched by that.
   void deform_unfiltered() {
-    deform({scene_.rest.points, scene_.unfiltered->normals});
-    const auto& filtered = scene_.rest.points.host();
-    const auto& unfiltered = scene_.unfiltered->points.host();
-    auto& moved = moved_.points.write_host();
-    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += unfiltered[i] - filtered[i];
+    auto& moved = registered_.points.write_host();
+    for (std::size_t i = 0; i < scene_.unfiltered.size(); ++i)
+      Eigen::Map<Eigen::Vector3f>(moved.data() + 3 * i) += scene_.unfiltered[i] - scene_.aligned.points[i];
   }
 
   void measure_start() {
@@ -295,7 +305,7 @@ class Registration {
           fmt::format("{} point(s) of the source were moved where nothing is finite", residual.lost));
     else if (residual.landed == 0)
       end("failed", "no point of the source projects onto a point of the target any more");
-    else if (!is_pulled())
+    else if ((residual.matched == 0 || !has_pulled_) && !is_pulled())
       end("no_constraints", "no constraint is in force: all matches are rejected, or all weights are zero");
     else if (residual.matched == 0)
       end("failed", "no point of the source has a match any more that is not rejected");
@@ -303,13 +313,14 @@ class Registration {
       record(residual);
   }
 
-  /// Whether any energy asks a point to go anywhere.
+  /// Whether any energy asks a point to go anywhere. Waits for the device: asked once a model, and when
+  /// nothing is matched.
   bool is_pulled() {
     const auto& terms = model_.problem->terms();
-    return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
-      return term.constraints != nullptr && term.energy.weight > 0 &&
-             any_in_force(device_, *term.constraints);
-    });
+    return has_pulled_ = std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+             return term.constraints != nullptr && term.energy.weight > 0 &&
+                    any_in_force(device_, *term.constraints);
+           });
   }
 
   /// Ends the loop, or adapts graph and constraints to the residual and lets it go on.
@@ -380,7 +391,7 @@ class Registration {
     if (termination_.empty()) rebuild();
   }
 
-  Model make_new_model() { return make_model(scene_, method_, device_, *skeleton_, *samples_); }
+  Model make_new_model() { return make_model(scene_, method_, device_, *skeleton_, *samples_, follows_all_); }
 
   /// Makes the model of the graph and constraints anew; the deformation so far is kept.
   void rebuild() {
@@ -392,6 +403,7 @@ class Registration {
       skeleton_ = std::make_shared<Skeleton>(std::move(next));
     }
     model_ = make_new_model();
+    has_pulled_ = false;
     model_.problem->unknowns() = std::move(start);
     bind_solver();
   }
@@ -412,8 +424,12 @@ class Registration {
   std::unique_ptr<PointSelection> samples_;
   bool has_grown_ = false;  ///< whether the graph is another than at first
   std::shared_ptr<const Skeleton> skeleton_;
+  bool follows_all_;
+  bool has_pulled_ = false;  ///< whether a constraint of the present model was in force
+  PointSet sampled_;         ///< the constrained points at rest, where only they are followed
   Model model_;
-  PointSet moved_;
+  PointSet moved_;       ///< those that are followed
+  PointSet registered_;  ///< all, at the end
   ResidualMeter meter_;
   std::unique_ptr<BoundSolver> solver_;
   std::vector<RegistrationResult::Step> history_;
@@ -446,8 +462,8 @@ bool is_waited_for(const std::string& stage) { return stage == "ans" || stage ==
 
 RegistrationResult Registration::take_result() {
   RegistrationResult result;
-  result.points = unflatten(moved_.points);
-  result.normals = unflatten(moved_.normals);
+  result.points = unflatten(registered_.points);
+  result.normals = unflatten(registered_.normals);
   result.matched = std::move(matched_);
   result.node_positions = best_.skeleton->positions;
   result.graph_cells = best_.skeleton->cells;
@@ -473,8 +489,7 @@ RegistrationResult Registration::take_result() {
     if (!is_waited_for(stage)) result.time_ms[stage] += time;
   record_solves(std::move(summaries_), result);
   result.source = std::move(scene_.source);
-  result.aligned_points =
-      scene_.unfiltered ? unflatten(scene_.unfiltered->points) : std::move(scene_.aligned.points);
+  result.aligned_points = std::move(scene_.unfiltered.empty() ? scene_.aligned.points : scene_.unfiltered);
   result.alignment = scene_.alignment;
   return result;
 }

@@ -41,7 +41,8 @@ struct RegistrationResult {
     std::vector<double> per_iteration;  ///< at the end of each outer iteration
   } energy;
 
-  /// What was measured before the first and after each outer iteration.
+  /// What was measured before the first and after each outer iteration: over all points of the source where
+  /// nodes or constraints adapt to it, else over those that are constrained.
   struct Step {
     double residual_mean = 0;  ///< mm, of the accepted matches
     double robust = 0;         ///< mm, Residual::robust

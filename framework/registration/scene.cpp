@@ -30,6 +30,20 @@ Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const 
   return surface;
 }
 
+std::vector<Eigen::Vector3f> unprojected(const std::vector<Eigen::Vector2i>& pixels, const FramePair& pair) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(pixels.size());
+  for (const Eigen::Vector2i& pixel : pixels)
+    points.push_back(
+        pair.camera.unproject(pixel.x(), pixel.y(), pair.source.depth(pixel.x(), pixel.y())).cast<float>());
+  return points;
+}
+
+std::vector<Eigen::Vector3f> moved_by(const Eigen::Isometry3d& motion, std::vector<Eigen::Vector3f> points) {
+  for (Eigen::Vector3f& point : points) point = (motion * point.cast<double>()).cast<float>();
+  return points;
+}
+
 }  // namespace
 
 Scene make_scene(const FramePair& pair, const Method& method, Device& device, std::uint64_t seed,
@@ -39,8 +53,6 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   const DepthMap depth = make_depth_map(pair.source, times);
   const auto filtered = method.filter->filter(device, depth, pair.camera);
   const PointSet map = make_surface_map(device, filtered ? *filtered : depth, pair.camera);
-  std::optional<PointSet> unfiltered_map;
-  if (filtered) unfiltered_map = make_surface_map(device, depth, pair.camera);
   Target target(pair.camera, make_target_map(pair, method, device, times));
 
   const Array<int> pixels(timed(times, "surface", [&] { return pixels_with_depth(depth); }));
@@ -49,12 +61,14 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
     return method.alignment->align({pair, device, map, pixels, target, seed, uses_features(method)});
   });
 
-  const PointSet given = pick_points(device, filtered ? *unfiltered_map : map, pixels);
   PointSet rest = pick_points(device, map, pixels, alignment.motion);
-  std::optional<PointSet> unfiltered;
-  if (filtered) unfiltered = pick_points(device, *unfiltered_map, pixels, alignment.motion);
-  Surface as_given = read_surface(given, pixels.host(), pair.source);
+  Surface as_given = read_surface(pick_points(device, map, pixels), pixels.host(), pair.source);
   Surface aligned = read_surface(rest, pixels.host(), pair.source);
+  std::vector<Eigen::Vector3f> unfiltered;
+  if (filtered) {
+    as_given.points = unprojected(as_given.pixels, pair);
+    unfiltered = moved_by(alignment.motion, as_given.points);
+  }
   return {pair,
           alignment,
           std::move(target),

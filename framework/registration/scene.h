@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
@@ -18,12 +18,12 @@ struct Scene {
   const FramePair& pair;
   AlignmentResult alignment;
   Target target;    ///< filtered
-  Surface source;   ///< as given
+  Surface source;   ///< as given; its normals are those of the filtered surface
   Surface aligned;  ///< what is registered: the source, filtered, after the initial alignment
   PointSet rest;    ///< `aligned` on the device
-  /// The source as given, after the initial alignment, on the device; none where no filter sets it apart
-  /// from `rest`.
-  std::optional<PointSet> unfiltered;
+  /// mm; the points of the source as given, after the initial alignment; empty where no filter sets them apart
+  /// from `aligned`.
+  std::vector<Eigen::Vector3f> unfiltered;
 };
 
 /// `pair` must outlive the scene. Adds to `times` what the host spent on each stage. Throws DataError as
