@@ -142,7 +142,7 @@ ordered_json run_json(const RunRecord& run) {
 ordered_json run_json(const EditRecord& run) {
   const EditResult& result = run.result;
   ordered_json counts = counts_json(result.counts);
-  counts.erase("outer_iterations");
+  for (const char* of_matching : {"matched_points", "outer_iterations"}) counts.erase(of_matching);
   ordered_json handles = ordered_json::object();
   for (const auto& handle : result.handles)
     handles[handle.name] = {{"points", handle.points},

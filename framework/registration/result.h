@@ -21,8 +21,9 @@ struct RegistrationResult {
   /// Per point: whether it has a match at the end. What has none (hidden, cut off, too far) went with its
   /// neighbours.
   std::vector<std::uint8_t> matched;
-  std::vector<Eigen::Vector3f> node_positions;  ///< mm, nodes of the last graph on the aligned source
-  std::vector<GraphCell> graph_cells;           ///< of the last graph; empty where it has none
+  std::vector<Eigen::Vector3f>
+      node_positions;                  ///< mm, nodes, on the aligned source, of the graph that led here
+  std::vector<GraphCell> graph_cells;  ///< of that graph; empty where it has none
 
   struct Counts {
     int source_points = 0;

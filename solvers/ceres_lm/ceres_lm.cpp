@@ -195,7 +195,8 @@ class BoundCeres : public BoundSolver {
     options.preconditioner_type = ceres::JACOBI;
     options.max_num_iterations = options_.max_iterations;
     options.function_tolerance = options_.tolerance;
-    options.gradient_tolerance = 0;
+    // Near nothing: an energy that has underflowed to 0 would be a failure, for no step lowers it.
+    options.gradient_tolerance = 1e-100;
     options.parameter_tolerance = 0;
     options.num_threads = options_.threads;
     options.logging_type = ceres::SILENT;

@@ -42,7 +42,8 @@ TEST_F(ExperimentTest, ItsOwnNameGoesBeforeTheFile) {
 }
 
 TEST_F(ExperimentTest, RunsAreTheWholeExperimentWithTheirValuesLaidOver) {
-  const ExperimentPlan made = plan("runs: {fine: {sampler: {step: 2}}, other: {seed: 7}}");
+  const ExperimentPlan made =
+      plan("sampler: {step: 4}\nruns: {fine: {sampler: {step: 2}}, other: {seed: 7}}");
   EXPECT_THAT(run_names(made), ElementsAre("fine", "other"));
   EXPECT_EQ(made.runs[0].values.section("sampler").integer("step"), 2);
   EXPECT_EQ(made.runs[0].values.integer("seed"), 1);

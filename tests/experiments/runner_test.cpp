@@ -63,8 +63,9 @@ TEST_F(RunnerTest, ResultHasTheKeysThatOthersRead) {
               ElementsAre("method", "reason", "matches", "inliers", "rotation", "translation"));
   ASSERT_EQ(entry["history"].size(), entry["counts"]["outer_iterations"].get<std::size_t>() + 1);
   EXPECT_THAT(keys(entry["history"][0]), ElementsAre("residual_mean", "robust", "matched"));
-  EXPECT_THAT(keys(entry["counts"]), ElementsAre("source_points", "nodes", "edges", "constraints", "unknowns",
-                                                 "outer_iterations", "solver_iterations"));
+  EXPECT_THAT(keys(entry["counts"]),
+              ElementsAre("source_points", "matched_points", "nodes", "edges", "constraints", "unknowns",
+                          "outer_iterations", "solver_iterations"));
   for (const char* stage : {"metrics", "initial", "aligned"})
     EXPECT_THAT(keys(entry[stage]),
                 ElementsAre("residual_mean", "residual_sd", "coverage", "nearest_mean", "nearest_sd",
@@ -267,7 +268,9 @@ TEST_F(RunnerTest, AFolderThatCannotBeMadeIsADataError) {
 }
 
 TEST_F(RunnerTest, AComponentCombinationWithoutSenseIsAConfigError) {
-  EXPECT_THROW(check_experiment(plan("graph: {nodes: 50}"), workbench_), ConfigError);
+  EXPECT_THROW(check_experiment(plan("graph: {type: quadtree, refine_threshold: 1, collapse_threshold: 2}"),
+                                workbench_),
+               ConfigError);
 }
 
 TEST_F(RunnerTest, JsonWithoutFiniteNumbersIsNotWritten) {

@@ -42,6 +42,13 @@ void remove_points(Surface& surface, const std::function<bool(const Eigen::Vecto
   surface = kept;
 }
 
+/// Removes what point_at could give in the place of a point at `centre`.
+void remove_points_around(Surface& surface, const Eigen::Vector2i& centre) {
+  remove_points(surface, [&](const Eigen::Vector2i& pixel) {
+    return (pixel - centre).cwiseAbs().maxCoeff() <= gap_radius;
+  });
+}
+
 Array<float> everywhere(const Surface& surface, float residual) {
   return Array<float>(std::vector<float>(surface.size(), residual));
 }
@@ -268,7 +275,7 @@ TEST_F(QuadtreeTest, NoCellLosesAllOfItsNodesOnWhateverMaskUnderWhateverResidual
 
 TEST_F(QuadtreeTest, AVirtualParentTakesNoNodesBack) {
   Surface surface = full_rectangle(64, 64);
-  remove_points(surface, [](const Eigen::Vector2i& pixel) { return pixel == Eigen::Vector2i(8, 8); });
+  remove_points_around(surface, {8, 8});
   const auto nodes = select({3, 2, 10, 2, 1}, surface);
   EXPECT_EQ(nodes->points().size(), 15U);
   nodes->adapt(device_, everywhere(surface, 3));
@@ -279,7 +286,7 @@ TEST_F(QuadtreeTest, AVirtualParentTakesNoNodesBack) {
 
 TEST_F(QuadtreeTest, BelowItsVirtualLevelsACellWithoutANodeIsNoPartOfTheTree) {
   Surface surface = full_rectangle(64, 64);
-  remove_points(surface, [](const Eigen::Vector2i& pixel) { return pixel == Eigen::Vector2i(4, 4); });
+  remove_points_around(surface, {4, 4});
   EXPECT_EQ(select({3, 3, 3, 2, 1}, surface)->cells().size(), 64U);
   EXPECT_EQ(select({3, 3, 2, 2, 1}, surface)->cells().size(), 63U);
 }

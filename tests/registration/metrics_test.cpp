@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -187,6 +188,31 @@ TEST(EndPointError, PercentileIsTheErrorThat95PercentDoNotExceed) {
   const Metrics metrics = evaluation.measure(source);
   EXPECT_NEAR(metrics.truth->epe_p95, 19, 1e-3);
   EXPECT_EQ(metrics.truth->epe_moving_mean, 0);
+}
+
+// On the left something stands 200 mm before the wall; below, the target is cut off.
+TEST(EndPointError, TellsWhatTheTargetShowsFromWhatItHides) {
+  SurfaceMap target = wall_with_hole();
+  for (int v = 0; v < 7; ++v) {
+    for (int u = 0; u < 9; ++u) {
+      if (v >= 4)
+        target.points(u, v) = Eigen::Vector3f::Zero();
+      else if (u <= 3)
+        target.points(u, v) = at_pixel(u, v, 800);
+    }
+  }
+  FramePair pair = pair_without_truth();
+  pair.scene_flow = Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f(0, 0, 5));
+  pair.scene_flow(4, 0) = {nan, nan, nan};
+  const Points source{at_pixel(6, 2, 995), at_pixel(1, 2, 995), at_pixel(6, 6, 995), at_pixel(12, 2, 995),
+                      at_pixel(6, 1, 995)};
+  const Evaluation evaluation(pair, surface_of(source), target);
+  Points moved = source;  // the seen one is off by 1 mm; behind, cut off and out of view: 2, 4 and 6 mm
+  for (std::size_t i = 0; i < 4; ++i) moved[i].z() = 1000 + std::array{1.0F, 2.0F, 4.0F, 6.0F}[i];
+  const Metrics::Truth truth = evaluation.measure(moved).truth.value();
+  EXPECT_NEAR(truth.epe_seen_mean, 1, 1e-3);
+  EXPECT_NEAR(truth.epe_hidden_mean, 4, 1e-3);
+  EXPECT_DOUBLE_EQ(truth.hidden_share, 0.75);
 }
 
 TEST(EndPointError, IsAbsentWhereNothingIsKnown) {

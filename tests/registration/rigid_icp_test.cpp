@@ -200,13 +200,25 @@ RigidIcpResult align(const RgbdFrame& source, const RgbdFrame& target, const Rig
              Eigen::Isometry3d::Identity());
 }
 
-class FarTurn : public testing::TestWithParam<Eigen::Isometry3d> {};
+/// The arguments of motion_of.
+struct Turn {
+  double x, y, z;
+  Eigen::Vector3d shift;
+};
+
+void PrintTo(const Turn& turn, std::ostream* out) {
+  *out << turn.x << ", " << turn.y << ", " << turn.z << " degrees, " << turn.shift.transpose() << " mm";
+}
+
+class FarTurn : public testing::TestWithParam<Turn> {};
 
 TEST_P(FarTurn, IsFound) {
-  const RigidIcpResult result = align(seen(Eigen::Isometry3d::Identity()), seen(GetParam()));
+  const auto& [x, y, z, shift] = GetParam();
+  const Eigen::Isometry3d motion = motion_of(x, y, z, shift);
+  const RigidIcpResult result = align(seen(Eigen::Isometry3d::Identity()), seen(motion));
   EXPECT_FALSE(result.failed) << result.reason;
   EXPECT_TRUE(result.converged) << result.reason;
-  EXPECT_LT(difference(result.pose, GetParam()), 1);
+  EXPECT_LT(difference(result.pose, motion), 1);
   EXPECT_GT(result.before.mean, 4);
   EXPECT_LT(result.after.mean, 0.5 * result.before.mean);
   EXPECT_GT(result.inliers, result.samples / 2);
@@ -214,11 +226,10 @@ TEST_P(FarTurn, IsFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(RigidIcp, FarTurn,
-                         testing::Values(motion_of(30, 0, 0, {0, 0, 0}), motion_of(-30, 0, 0, {0, 0, 0}),
-                                         motion_of(0, 45, 0, {0, 0, 0}), motion_of(0, -30, 0, {0, 0, 0}),
-                                         motion_of(0, 0, 30, {0, 0, 0}), motion_of(0, 0, 0, {60, 0, 0}),
-                                         motion_of(0, 0, 0, {0, -30, 100}),
-                                         motion_of(20, 20, 0, {30, 20, 40})));
+                         testing::Values(Turn{30, 0, 0, {0, 0, 0}}, Turn{-30, 0, 0, {0, 0, 0}},
+                                         Turn{0, 45, 0, {0, 0, 0}}, Turn{0, -30, 0, {0, 0, 0}},
+                                         Turn{0, 0, 30, {0, 0, 0}}, Turn{0, 0, 0, {60, 0, 0}},
+                                         Turn{0, 0, 0, {0, -30, 100}}, Turn{20, 20, 0, {30, 20, 40}}));
 
 TEST(RigidIcp, FromTheStartAloneFindsWhatIsNear) {
   RigidIcpOptions options;

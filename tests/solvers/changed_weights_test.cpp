@@ -20,6 +20,8 @@ struct Before {
   Settings settings;
 };
 
+void PrintTo(const Before& before, std::ostream* out) { *out << before.name; }
+
 class ChangedWeights : public SolverTest, public testing::WithParamInterface<Before> {
  protected:
   /// Energies of every stencil; of those over constraints one without a loss and one with.

@@ -9,16 +9,16 @@ namespace pliant::test {
 namespace {
 
 /// What holds for Gauss-Newton whatever solves for its steps.
-class GaussNewton : public SolverTest, public testing::WithParamInterface<const char*> {
+class GaussNewton : public SolverTest, public testing::WithParamInterface<std::string> {
  protected:
   /// `more`: further parameters, e.g. ", tolerance: 0".
   std::string solver(const std::string& more = "") const {
-    return std::string("{type: gauss_newton, linear_solver: ") + GetParam() + more + "}";
+    return "{type: gauss_newton, linear_solver: " + GetParam() + more + "}";
   }
 };
 
 INSTANTIATE_TEST_SUITE_P(Over, GaussNewton, testing::Values("dense_cholesky", "structured"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& info) { return info.param; });
 
 TEST_P(GaussNewton, TellsOfItsSolve) {
   auto problem = sheet_problem({});
