@@ -36,7 +36,7 @@ constexpr std::array data_sets{
     DataSet{"jaw", "faces/jaw.yaml", "ict_face/ict_face.glb"},
     DataSet{"shirt", "shirt.yaml", "deepdeform_seq258/depth_000000.png"},
 };
-constexpr std::array methods{"ed", "ad_nodes", "ad_nodes_ad_cons", "best"};
+constexpr std::array methods{"ed", "ad_nodes", "ad_nodes_ad_cons", "best", "best_depth"};
 
 /// Makes the experiment that a file would be if it extended another method than it does.
 class MethodSwap {

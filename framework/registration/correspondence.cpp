@@ -140,8 +140,8 @@ std::size_t ProjectiveCorrespondence::walk(const Target& target, const Eigen::Ve
 
 ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::search(const Target& target,
                                                                  const Eigen::Vector3f& point,
-                                                                 const Eigen::Vector3f& normal) const {
-  const int radius = options_.search_radius;
+                                                                 const Eigen::Vector3f& normal,
+                                                                 int radius) const {
   if (radius == 0 || !(point.z() > 0)) return std::nullopt;
   const Eigen::Vector2d centre = target.camera.project(point.cast<double>()).array().round();
   Pixel best;
@@ -162,8 +162,10 @@ ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::match_point(const Targ
                                                                       const Eigen::Vector3f& normal) const {
   if (!is_facing(point, normal)) return std::nullopt;
   Pixel pixel = target_pixel_reference(target, point);
+  if (!pixel && options_.steps > 0) pixel = search(target, point, normal, 1);
   if (pixel) pixel = walk(target, point, *pixel);
-  if (!pixel || !accepts(target, *pixel, point, normal)) pixel = search(target, point, normal);
+  if (!pixel || !accepts(target, *pixel, point, normal))
+    pixel = search(target, point, normal, options_.search_radius);
   if (pixel && options_.rim > 0 && is_rim(target, *pixel)) return std::nullopt;
   return pixel;
 }

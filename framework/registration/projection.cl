@@ -138,6 +138,10 @@ int closest_pixel(float3 p, int pixel, int steps, float4 camera, int2 size, glob
 int matched_pixel(float3 p, float3 normal, Limits limits, float4 camera, int2 size,
                   global const float* target_points, global const float* target_normals) {
   int pixel = target_pixel(p, camera, size, target_points);
+  // A walk may begin beside a pixel that is missing.
+  if (pixel < 0 && limits.steps > 0)
+    pixel = nearest_pixel(p, normal, 1, camera, size, target_points, target_normals, limits.max_distance,
+                          limits.least_cosine);
   if (pixel >= 0 && limits.steps > 0)
     pixel = closest_pixel(p, pixel, limits.steps, camera, size, target_points, target_normals);
   if (pixel >= 0 && !is_acceptable(p, normal, pixel, target_points, target_normals, limits.max_distance,

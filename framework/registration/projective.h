@@ -44,7 +44,8 @@ class ProjectiveCorrespondence : public Correspondence {
   using Pixel = std::optional<std::size_t>;
   Pixel match_point(const Target& target, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
   std::size_t walk(const Target& target, const Eigen::Vector3f& point, std::size_t pixel) const;
-  Pixel search(const Target& target, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
+  Pixel search(const Target& target, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+               int radius) const;
   bool is_facing(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
   bool is_rim(const Target& target, std::size_t pixel) const;
   bool accepts(const Target& target, std::size_t pixel, const Eigen::Vector3f& point,

@@ -21,8 +21,8 @@ struct Scene {
   Surface source;   ///< as given; its normals are those of the filtered surface
   Surface aligned;  ///< what is registered: the source, filtered, after the initial alignment
   PointSet rest;    ///< `aligned` on the device
-  /// mm; the points of the source as given, after the initial alignment; empty where no filter sets them apart
-  /// from `aligned`.
+  /// mm; the points of the source as given, after the initial alignment; empty where no filter sets them
+  /// apart from `aligned`.
   std::vector<Eigen::Vector3f> unfiltered;
 };
 
