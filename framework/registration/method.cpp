@@ -24,12 +24,16 @@ ParameterTable stopping_table() {
           .above(0)
           .doc("The iteration is returned whose residuals, one above this or of a point without a match "
                "counting as this, have the least mean square; the alignment itself if none is better"),
+      real("min_gain", rule.min_gain)
+          .range(0, 1)
+          .doc("Share by which the root of that must be less than at the alignment: what gains less explains "
+               "nothing that noise does not, and the alignment is returned"),
   };
 }
 
 StoppingRule make_stopping(const Parameters& section) {
   return {static_cast<int>(section.integer("max_iterations")), section.real("residual"),
-          section.real("min_progress"), section.real("cut")};
+          section.real("min_progress"), section.real("cut"), section.real("min_gain")};
 }
 
 ParameterTable schedule_table() {

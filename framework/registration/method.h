@@ -21,6 +21,7 @@ struct StoppingRule {
   double min_progress = 1e-3;  ///< ends when the mean residual falls by less than this share of itself
   /// mm; of the robust residual (Residual::robust), by which the iteration is chosen that is returned.
   double cut = 5;
+  double min_gain = 0;  ///< share by which that must be less than at the alignment, else this is returned
 };
 
 /// How weights and scales of losses go from their initial values to the final ones. What is stiff at first is

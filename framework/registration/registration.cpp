@@ -226,8 +226,10 @@ class Registration {
   void record(const Residual& residual) {
     const std::size_t iteration = history_.size();
     history_.push_back({residual.mean, residual.robust, residual.matched});
+    const double enough = (1 - method_.stopping.min_gain) * history_.front().robust;
     const auto is_better = [&](const State& best) {
-      return iteration == 0 || residual.robust < history_[best.iteration].robust;
+      return iteration == 0 ||
+             (residual.robust < enough && residual.robust < history_[best.iteration].robust);
     };
     const State here{iteration, skeleton_, model_.problem->unknowns()};
     if (is_better(best_of_all_)) best_of_all_ = here;
