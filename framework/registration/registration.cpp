@@ -177,6 +177,7 @@ class Registration {
       report(progress);
     }
     collect_summaries();
+    history_.resize(static_cast<std::size_t>(iterations_) + 1);  // without solves that have failed
     if (!is_after_schedule(history_.size() - 1)) best_ = best_of_all_;
     deform_best();
   }
