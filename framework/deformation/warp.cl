@@ -11,8 +11,10 @@ kernel void make_rows(int count, global const float* node_points, global const f
   const float3 d1 = vload3(4 * node, affine), d2 = vload3(4 * node + 1, affine);
   const float3 d3 = vload3(4 * node + 2, affine);
   const float3 t = vload3(4 * node + 3, affine) - (arm.x * d1 + arm.y * d2 + arm.z * d3);
-  vstore16((float16)(d1.x, d2.x, d3.x, t.x, d1.y, d2.y, d3.y, t.y, d1.z, d2.z, d3.z, t.z, (float4)(0)), node,
-           rows);
+  vstore4((float4)(d1.x, d2.x, d3.x, t.x), 4 * node, rows);
+  vstore4((float4)(d1.y, d2.y, d3.y, t.y), 4 * node + 1, rows);
+  vstore4((float4)(d1.z, d2.z, d3.z, t.z), 4 * node + 2, rows);
+  vstore4((float4)(0), 4 * node + 3, rows);
 }
 
 // The rows of each point's own form: number 4 axis + column. Points from `last` on are not there.
