@@ -1,4 +1,5 @@
-// Rigid ICP [thesis 3.3]: projective matches, point to plane [Eq. 3.2], several poses side by side.
+// Rigid ICP [thesis 3.3]: projective matches, point to plane [Eq. 3.2], several poses side by side. Compiled
+// behind lanes.cl.
 //
 // Samples lie coordinate by coordinate (x y z of the point, then of its normal), `padded` to whole vectors; a
 // sample without a point has z = 0. A pose is 16 numbers: the rows of R, where the pivot goes, and what
@@ -24,38 +25,16 @@
 #define CHUNK (16 * WIDTH)  // samples that a work-item adds up
 
 #if WIDTH == 16
-typedef float16 Lanes;
-typedef int16 Truth;  // of a comparison, lane by lane
-#define LOAD(address) vload16(0, address)
-#define STORE(value, address) vstore16(value, 0, address)
 #define STORE_INT(value, address) vstore16(value, 0, address)
 #define TO_INT(value) convert_int16(value)
-#elif WIDTH == 1
-typedef float Lanes;
-typedef int Truth;
-#define LOAD(address) (*(address))
-#define STORE(value, address) (*(address) = (value))
+#else
 #define STORE_INT(value, address) (*(address) = (value))
 #define TO_INT(value) ((int)(value))
-#else
-#error "WIDTH must be 1 or 16"
 #endif
-#define WHERE(condition, value) select((Lanes)0, value, condition)  // 0 elsewhere
-
-typedef struct {
-  Lanes x, y, z;
-} Vector;
-
-static inline Lanes inner(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 static inline Vector minus(Vector a, Vector b) {
   const Vector difference = {a.x - b.x, a.y - b.y, a.z - b.z};
   return difference;
-}
-
-static inline Vector only(Truth condition, Vector v) {
-  const Vector chosen = {WHERE(condition, v.x), WHERE(condition, v.y), WHERE(condition, v.z)};
-  return chosen;
 }
 
 static inline float total(Lanes v) {
