@@ -38,7 +38,7 @@ void expect_sound(const json& row) {
 
 TEST_F(PairModeTest, EachMethodRegistersTheSheetAsItself) {
   const json rows = rows_of("--only sheet");
-  ASSERT_EQ(rows.size(), 4U);
+  ASSERT_EQ(rows.size(), 5U);
   const std::vector<std::string> methods{"ed", "ad_nodes", "ad_nodes_ad_cons", "best", "best_depth"};
   for (std::size_t i = 0; i < methods.size(); ++i) {
     SCOPED_TRACE(methods[i]);
