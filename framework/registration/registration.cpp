@@ -228,13 +228,12 @@ class Registration {
     const std::size_t iteration = history_.size();
     history_.push_back({residual.mean, residual.robust, residual.matched});
     const double enough = (1 - method_.stopping.min_gain) * history_.front().robust;
-    const auto is_better = [&](const State& best) {
-      return iteration == 0 ||
-             (residual.robust < enough && residual.robust < history_[best.iteration].robust);
+    const auto keep_if_better = [&](State& best) {
+      const bool is_better = residual.robust < enough && residual.robust < history_[best.iteration].robust;
+      if (iteration == 0 || is_better) best = {iteration, skeleton_, model_.problem->unknowns()};
     };
-    const State here{iteration, skeleton_, model_.problem->unknowns()};
-    if (is_better(best_of_all_)) best_of_all_ = here;
-    if ((iteration == 0 || is_after_schedule(iteration)) && is_better(best_)) best_ = here;
+    keep_if_better(best_of_all_);
+    if (iteration == 0 || is_after_schedule(iteration)) keep_if_better(best_);
   }
 
   bool is_after_schedule(std::size_t iteration) const {
