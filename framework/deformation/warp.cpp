@@ -13,7 +13,7 @@ void warp(Device& device, const PointSet& rest, const Influences& influences, co
   const auto count = rest.points.size() / 3;
   const auto node_count = node_points.size() / 3;
   const auto width = static_cast<std::size_t>(device.width());
-  const std::string source = with_lanes(embedded::framework_deformation_warp_cl);
+  static const std::string source = with_lanes(embedded::framework_deformation_warp_cl);
   auto make_rows = device.kernel(source, "make_rows");
   auto kernel = device.kernel(source, "warp");
   const cl::Buffer rows = device.allocate(16 * sizeof(float) * node_count);

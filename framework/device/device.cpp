@@ -112,12 +112,12 @@ Device::Device(const std::string& selection) : kernel_cache_(open_kernel_cache()
 }
 
 cl::Kernel Device::kernel(std::string_view source, const std::string& name, const std::string& options) {
-  auto& [program, kernels] = program_of(source, options);
-  auto& kernel = kernels[name];
+  Program& made = program_of(source, options);
+  auto& kernel = made.kernels[name];
   if (kernel() != nullptr) return kernel;
   try {
-    if (program() == nullptr) program = build(source, options);
-    return kernel = cl::Kernel(program, name.c_str());
+    if (made.program() == nullptr) made.program = build(source, options);
+    return kernel = cl::Kernel(made.program, name.c_str());
   } catch (const cl::BuildError& error) {
     std::string log;
     for (const auto& entry : error.getBuildLog()) log += entry.second;
@@ -143,9 +143,11 @@ cl::Program Device::build(std::string_view source, const std::string& options) {
 }
 
 Device::Program& Device::program_of(std::string_view source, const std::string& options) {
-  std::string key;
-  key.reserve(options.size() + 1 + source.size());
-  return programs_[key.append(options).append(1, '\n').append(source)];
+  const auto known = std::find_if(programs_.begin(), programs_.end(), [&](const Program& program) {
+    return program.source == source && program.options == options;
+  });
+  if (known != programs_.end()) return *known;
+  return programs_.emplace_back(Program{options, std::string(source), {}, {}});
 }
 
 void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::size_t global,

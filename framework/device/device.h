@@ -5,6 +5,7 @@
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #include <CL/opencl.hpp>
 #include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -124,6 +125,7 @@ class Device {
   cl::Context context_;
   cl::CommandQueue queue_;
   struct Program {
+    std::string options, source;
     cl::Program program;
     std::unordered_map<std::string, cl::Kernel> kernels;
   };
@@ -134,7 +136,7 @@ class Device {
 
   std::filesystem::path kernel_cache_;
   ProgressSink tell_of_building_;
-  std::unordered_map<std::string, Program> programs_;  // by options and source
+  std::deque<Program> programs_;  // few: told apart by the length of their sources sooner than by any hash
   int programs_built_ = 0;
   mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: what allocate() gave out
   bool measuring_ = false;

@@ -23,12 +23,11 @@ cl_float4 row_of(const Eigen::Isometry3d& motion, int row) {
 }  // namespace
 
 cl::Kernel depth_kernel(Device& device, const std::string& name) {
-  return device.kernel(
-      with_lanes(embedded::framework_geometry_depth_map_cl), name,
-      fmt::format(
-          "-DHALO={} -DNO_DEPTH={:e}f -DFEWEST_POINTS={} -DFLATTEST={:e}f -DWIDEST={} -DEDGE_ON={:e}f",
-          DepthMap::halo, DepthMap::no_depth, fewest_plane_points, flattest_spread, widest_normal_radius,
-          edge_on));
+  static const std::string source = with_lanes(embedded::framework_geometry_depth_map_cl);
+  static const std::string options = fmt::format(
+      "-DHALO={} -DNO_DEPTH={:e}f -DFEWEST_POINTS={} -DFLATTEST={:e}f -DWIDEST={} -DEDGE_ON={:e}f",
+      DepthMap::halo, DepthMap::no_depth, fewest_plane_points, flattest_spread, widest_normal_radius, edge_on);
+  return device.kernel(source, name, options);
 }
 
 DepthMap::DepthMap(int width, int height)
