@@ -50,7 +50,8 @@ ProjectiveCorrespondence::ProjectiveCorrespondence(const ProjectiveOptions& opti
 void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, const Array<int>& selected,
                                      const Target& target, Constraints& constraints) const {
   auto kernel = projection_kernel(device, "match");
-  device.run("match", kernel, selected.size(), 64, static_cast<cl_int>(selected.size()),
+  const auto width = static_cast<std::size_t>(device.width());
+  device.run("match", kernel, (selected.size() + width - 1) / width, 4, static_cast<cl_int>(selected.size()),
              selected.device(device), constraints.points.device(device), moved.points.device(device),
              moved.normals.device(device), pinhole(target.camera), image_size(target.camera),
              target.points.device(device), target.normals.device(device), max_distance_, least_cosine_,

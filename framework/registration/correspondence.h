@@ -22,6 +22,8 @@ class Correspondence {
   /// is. Only enqueues. What graph, sampler and stopping judge by: E_con of [Alg. 2, 3].
   virtual void measure(Device& device, const PointSet& moved, const Target& target,
                        Array<float>& distances) const = 0;
+  /// Whether `measure` accepts just the matches that `match` finds: then a residual tells what is matched.
+  virtual bool measures_matches() const = 0;
 };
 
 /// Whether any of the constraints has a confidence above 0. Waits for everything enqueued so far.

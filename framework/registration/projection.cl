@@ -1,18 +1,42 @@
-// Projective association [thesis 4.2]: the target point at the pixel that a source point projects to.
-// Compiled behind lanes.cl.
-
-#define FARTHEST 1e18f  // farthest_depth of image.h
+// Matching with a target [thesis 4.2], WIDTH points a work-item: with the target point at the pixel that a
+// point projects to, or one near it. Compiled behind lanes.cl and point_map.cl.
 
 // Between neighbouring pixels: a surface seen under more than 84 degrees, or two of them.
 #define STEEPEST_SLOPE 10.0f
 
-typedef struct {
-  float max_distance;
-  float least_cosine;
-  int search_radius;
-  int steps;
-  int rim;
-} Limits;
+// What does not fill WIDTH points repeats the last one.
+Vector load_selected(global const int* selected, int count, global const float* vectors) {
+  int at[WIDTH];
+  for (int lane = 0; lane < WIDTH; ++lane) at[lane] = selected[min(lane, count - 1)];
+  return gather(LOAD_INT(at), vectors);
+}
+
+// Of those that have a target point at the pixel that they project to, that pixel.
+Pixels target_pixels(Vector p, float4 camera, int2 size, global const float* target_points) {
+  const Pixels pixels = project(p, camera, size);
+  return select(NONE, pixels, gather(pixels, target_points).z > (Lanes)0);
+}
+
+Lanes distances(Vector p, Vector q) {
+  const Vector way = minus(p, q);
+  return sqrt(inner(way, way));
+}
+
+// Whether target points q are near enough to p and face alike. Without a normal on either side distance alone
+// decides.
+Truth are_acceptable(Vector p, Vector normals, Vector q, Vector target_normals, float max_distance,
+                     float least_cosine) {
+  const Truth have_normals =
+      inner(normals, normals) > (Lanes)0 && inner(target_normals, target_normals) > (Lanes)0;
+  return q.z > (Lanes)0 && distances(p, q) <= (Lanes)max_distance &&
+         (!have_normals || inner(normals, target_normals) >= (Lanes)least_cosine);
+}
+
+// Whether a camera at the origin sees the side of the surface that the normals point to. Without a normal it
+// is taken to.
+Truth are_facing(Vector p, Vector normals, float least_facing) {
+  return !(inner(normals, normals) > (Lanes)0) || -inner(normals, p) >= least_facing * sqrt(inner(p, p));
+}
 
 // A vector of the target; one that is not finite, or so long that its square is not, counts as none.
 float3 load_finite(int pixel, global const float* vectors) {
@@ -20,18 +44,7 @@ float3 load_finite(int pixel, global const float* vectors) {
   return all(fabs(v) < FARTHEST) ? v : (float3)(0);
 }
 
-// Offset of that pixel, or -1 when it lies outside or has no point. camera: fx, fy, cx, cy.
-int target_pixel(float3 p, float4 camera, int2 size, global const float* target_points) {
-  if (!(p.z > 0)) return -1;
-  const float u = round(camera.x * p.x / p.z + camera.z);
-  const float v = round(camera.y * p.y / p.z + camera.w);
-  if (!(u >= 0 && v >= 0 && u < size.x && v < size.y)) return -1;
-  const int pixel = (int)v * size.x + (int)u;
-  return load_finite(pixel, target_points).z > 0 ? pixel : -1;
-}
-
-// Whether target pixel `pixel` is near enough to the point p and faces alike. Without a normal on either side
-// distance alone decides.
+// The same of one point and one pixel.
 int is_acceptable(float3 p, float3 normal, int pixel, global const float* target_points,
                   global const float* target_normals, float max_distance, float least_cosine) {
   const float3 target_normal = load_finite(pixel, target_normals);
@@ -80,12 +93,6 @@ int nearest_pixel(float3 p, float3 normal, int radius, float4 camera, int2 size,
   return best;
 }
 
-// Whether a camera at the origin sees the side of the surface that the normal points to. Without a normal it
-// is taken to.
-int is_facing(float3 p, float3 normal, float least_facing) {
-  return !(dot(normal, normal) > 0) || -dot(normal, p) >= least_facing * length(p);
-}
-
 // Whether the target ends, or jumps in depth, at most `rim` pixels from a pixel that has a point. What lies
 // beyond is not seen: the nearest point of all that went out of sight is found here.
 int is_rim(int pixel, int rim, float4 camera, int2 size, global const float* target_points) {
@@ -101,23 +108,11 @@ int is_rim(int pixel, int rim, float4 camera, int2 size, global const float* tar
   return 0;
 }
 
-// The pixel of the target point nearest to p that a walk of at most `steps` steps from `pixel` finds: from
-// the foot of p on one tangent plane to that on the next; where that comes no nearer, from pixel to pixel.
-int closest_pixel(float3 p, int pixel, int steps, float4 camera, int2 size, global const float* target_points,
-                  global const float* target_normals) {
+// The pixel of the target point nearest to p that is found from `pixel`, from pixel to pixel nearer to p, at
+// most `steps` of them.
+int descend(float3 p, int pixel, int steps, int2 size, global const float* target_points) {
   float least = distance(p, vload3(pixel, target_points));
-  int is_nearer = 1, is_foot = 0;
-  for (int step = 0; step < steps && is_nearer; ++step) {
-    const float3 n = load_finite(pixel, target_normals);
-    const float3 foot = p - dot(p - vload3(pixel, target_points), n) * n;
-    const int next = target_pixel(foot, camera, size, target_points);
-    const float away = next >= 0 ? distance(p, vload3(next, target_points)) : least;
-    is_foot = next == pixel;
-    is_nearer = away < least;
-    if (is_nearer) pixel = next;
-    least = fmin(away, least);
-  }
-  is_nearer = !is_foot;
+  int is_nearer = 1;
   for (int step = 0; step < steps && is_nearer; ++step) {
     const int u = pixel % size.x, v = pixel / size.x;
     is_nearer = 0;
@@ -134,51 +129,107 @@ int closest_pixel(float3 p, int pixel, int steps, float4 camera, int2 size, glob
   return pixel;
 }
 
-// The pixel of the match of a point that may be seen, -1 where there is none.
-int matched_pixel(float3 p, float3 normal, Limits limits, float4 camera, int2 size,
-                  global const float* target_points, global const float* target_normals) {
-  int pixel = target_pixel(p, camera, size, target_points);
-  // A walk may begin beside a pixel that is missing.
-  if (pixel < 0 && limits.steps > 0)
-    pixel = nearest_pixel(p, normal, 1, camera, size, target_points, target_normals, limits.max_distance,
-                          limits.least_cosine);
-  if (pixel >= 0 && limits.steps > 0)
-    pixel = closest_pixel(p, pixel, limits.steps, camera, size, target_points, target_normals);
-  if (pixel >= 0 && !is_acceptable(p, normal, pixel, target_points, target_normals, limits.max_distance,
-                                   limits.least_cosine))
-    pixel = -1;
-  if (pixel < 0 && limits.search_radius > 0)
-    pixel = nearest_pixel(p, normal, limits.search_radius, camera, size, target_points, target_normals,
-                          limits.max_distance, limits.least_cosine);
-  if (pixel >= 0 && limits.rim > 0 && is_rim(pixel, limits.rim, camera, size, target_points)) pixel = -1;
-  return pixel;
+// The pixels of the target points nearest to p that a walk of at most `steps` steps from `pixels` finds: from
+// the foot of p on one tangent plane to that on the next; where that comes no nearer, from pixel to pixel.
+Pixels closest_pixels(Vector p, Pixels pixels, int steps, float4 camera, int2 size,
+                      global const float* target_points, global const float* target_normals) {
+  Vector q = gather(pixels, target_points);
+  Lanes least = distances(p, q);
+  Truth moving = pixels >= (Pixels)0, arrived = 0;
+  for (int step = 0; step < steps && ANY(moving); ++step) {
+    const Vector n = gather(pixels, target_normals);
+    const Vector foot = minus(p, scaled(n, inner(minus(p, q), n)));
+    const Pixels next = target_pixels(foot, camera, size, target_points);
+    const Vector at_next = gather(next, target_points);
+    const Lanes away = distances(p, at_next);
+    arrived = select(arrived, next == pixels, moving);
+    moving = moving && next >= (Pixels)0 && away < least;
+    pixels = select(pixels, next, moving);
+    least = select(least, away, moving);
+    q = chosen(q, at_next, moving);
+  }
+  const Truth unsure = pixels >= (Pixels)0 && !arrived;
+  if (!ANY(unsure)) return pixels;
+  int at[WIDTH], is_unsure[WIDTH];
+  float x[WIDTH], y[WIDTH], z[WIDTH];
+  STORE_INT(pixels, at);
+  STORE_INT(unsure, is_unsure);
+  STORE_VECTOR(p, x, y, z);
+  for (int lane = 0; lane < WIDTH; ++lane)
+    if (is_unsure[lane])
+      at[lane] = descend((float3)(x[lane], y[lane], z[lane]), at[lane], steps, size, target_points);
+  return LOAD_INT(at);
 }
 
-// The unit vector half-way between the normals of a match; (0, 0, 0) where they are opposite.
-float3 mean_normal(float3 a, float3 b) {
-  const float3 sum = a + b;
-  return dot(sum, sum) > 1e-6f ? normalize(sum) : (float3)(0);
+// As `pixels`; of points without one that may be seen, the nearest acceptable one within `radius` pixels.
+Pixels look_around(Pixels pixels, Truth facing, Vector p, Vector normals, int radius, float4 camera,
+                   int2 size, global const float* target_points, global const float* target_normals,
+                   float max_distance, float least_cosine) {
+  const Truth missing = facing && pixels < (Pixels)0;
+  if (!ANY(missing)) return pixels;
+  int at[WIDTH], is_missing[WIDTH];
+  float x[WIDTH], y[WIDTH], z[WIDTH], nx[WIDTH], ny[WIDTH], nz[WIDTH];
+  STORE_INT(pixels, at);
+  STORE_INT(missing, is_missing);
+  STORE_VECTOR(p, x, y, z);
+  STORE_VECTOR(normals, nx, ny, nz);
+  for (int lane = 0; lane < WIDTH; ++lane)
+    if (is_missing[lane])
+      at[lane] =
+          nearest_pixel((float3)(x[lane], y[lane], z[lane]), (float3)(nx[lane], ny[lane], nz[lane]), radius,
+                        camera, size, target_points, target_normals, max_distance, least_cosine);
+  return LOAD_INT(at);
 }
 
-// One constraint a work-item.
+// Unit vectors half-way between the normals of matches; (0, 0, 0) where they are opposite.
+Vector mean_normals(Vector a, Vector b) {
+  const Vector sum = {a.x + b.x, a.y + b.y, a.z + b.z};
+  const Lanes squares = inner(sum, sum);
+  return only(squares > (Lanes)1e-6f, scaled(sum, 1.0f / sqrt(squares)));
+}
+
 kernel void match(int count, global const int* selected, global const float* rest, global const float* moved,
                   global const float* normals, float4 camera, int2 size, global const float* target_points,
                   global const float* target_normals, float max_distance, float least_cosine,
                   float least_facing, int search_radius, int steps, int rim, int symmetric,
                   global float* data, global float* confidence) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
-  const Limits limits = {max_distance, least_cosine, search_radius, steps, rim};
-  const float3 p = vload3(selected[i], moved);
-  const float3 normal = vload3(selected[i], normals);
-  int pixel = -1;
-  if (is_facing(p, normal, least_facing))
-    pixel = matched_pixel(p, normal, limits, camera, size, target_points, target_normals);
-  float3 plane = pixel >= 0 ? load_finite(pixel, target_normals) : (float3)(0);
-  if (symmetric && dot(plane, plane) > 0) plane = mean_normal(plane, normal);
-  vstore3(pixel >= 0 ? vload3(pixel, target_points) - vload3(i, rest) : (float3)(0), 2 * i, data);
-  vstore3(plane, 2 * i + 1, data);
-  confidence[i] = pixel >= 0 ? 1 : 0;
+  const int first = get_global_id(0) * WIDTH;
+  if (first >= count) return;
+  const int there = min(WIDTH, count - first);
+  const Vector p = load_selected(selected + first, there, moved);
+  const Vector n = load_selected(selected + first, there, normals);
+  const Truth facing = are_facing(p, n, least_facing);
+  Pixels pixels = select(NONE, target_pixels(p, camera, size, target_points), facing);
+  if (steps > 0) {
+    // A walk may begin beside a pixel that is missing.
+    pixels = look_around(pixels, facing, p, n, 1, camera, size, target_points, target_normals, max_distance,
+                         least_cosine);
+    pixels = closest_pixels(p, pixels, steps, camera, size, target_points, target_normals);
+  }
+  pixels = select(NONE, pixels,
+                  are_acceptable(p, n, gather(pixels, target_points), gather(pixels, target_normals),
+                                 max_distance, least_cosine));
+  if (search_radius > 0)
+    pixels = look_around(pixels, facing, p, n, search_radius, camera, size, target_points, target_normals,
+                         max_distance, least_cosine);
+  int at[WIDTH];
+  STORE_INT(pixels, at);
+  for (int lane = 0; lane < there; ++lane)
+    if (rim > 0 && at[lane] >= 0 && is_rim(at[lane], rim, camera, size, target_points)) at[lane] = -1;
+  pixels = LOAD_INT(at);
+  const Vector pull =
+      only(pixels >= (Pixels)0, minus(gather(pixels, target_points), load_vectors(rest + 3 * first, there)));
+  Vector plane = gather(pixels, target_normals);
+  if (symmetric) plane = only(inner(plane, plane) > (Lanes)0, mean_normals(plane, n));
+  float x[WIDTH], y[WIDTH], z[WIDTH], nx[WIDTH], ny[WIDTH], nz[WIDTH];
+  STORE_VECTOR(pull, x, y, z);
+  STORE_VECTOR(plane, nx, ny, nz);
+  for (int lane = 0; lane < there; ++lane) {
+    const int i = first + lane;
+    vstore3((float3)(x[lane], y[lane], z[lane]), 2 * i, data);
+    vstore3((float3)(nx[lane], ny[lane], nz[lane]), 2 * i + 1, data);
+    confidence[i] = at[lane] >= 0 ? 1 : 0;
+  }
 }
 
 kernel void weigh(int count, global const float* weights, global float* confidence) {
@@ -195,66 +246,22 @@ kernel void find_in_force(int count, global const float* confidence, global int*
   *found = i < count;
 }
 
-// The pixels that WIDTH points, of which `count` are there, project to, and the points and normals of the
-// target there; (0, 0, 0) where there is none. What target_pixel says, but rounded and divided for all at
-// once.
-void load_targets(Vector p, int count, float4 camera, int2 size, global const float* target_points,
-                  global const float* target_normals, Vector* points, Vector* normals) {
-  const Lanes u = camera.x * p.x / p.z + camera.z, v = camera.y * p.y / p.z + camera.w;
-  const Lanes left = floor(u), top = floor(v);
-  const Truth is_inside = p.z > (Lanes)0 && u > (Lanes)-0.5f && v > (Lanes)-0.5f &&
-                          u < (Lanes)(size.x - 0.5f) && v < (Lanes)(size.y - 0.5f);
-  float column[WIDTH], row[WIDTH], x[WIDTH], y[WIDTH], z[WIDTH], nx[WIDTH], ny[WIDTH], nz[WIDTH];
-  STORE(WHERE(is_inside, left + WHERE(u - left >= (Lanes)0.5f, (Lanes)1)), column);
-  STORE(select((Lanes)-1, top + WHERE(v - top >= (Lanes)0.5f, (Lanes)1), is_inside), row);
-  for (int lane = 0; lane < WIDTH; ++lane) {
-    float3 q = 0, n = 0;
-    if (lane < count && row[lane] >= 0) {
-      const int pixel = (int)row[lane] * size.x + (int)column[lane];
-      q = load_finite(pixel, target_points);
-      n = load_finite(pixel, target_normals);
-    }
-    x[lane] = q.x;
-    y[lane] = q.y;
-    z[lane] = q.z;
-    nx[lane] = n.x;
-    ny[lane] = n.y;
-    nz[lane] = n.z;
-  }
-  const Vector q = {LOAD(x), LOAD(y), LOAD(z)}, n = {LOAD(nx), LOAD(ny), LOAD(nz)};
-  *points = only(q.z > (Lanes)0, q);
-  *normals = n;
-}
-
 // Distance of each point to the target point at its pixel where it may be seen and that is acceptable, else
 // -1. WIDTH points a work-item.
 kernel void measure(int count, global const float* moved, global const float* normals, float4 camera,
                     int2 size, global const float* target_points, global const float* target_normals,
-                    float max_distance, float least_cosine, float least_facing, global float* distances) {
+                    float max_distance, float least_cosine, float least_facing, global float* residuals) {
   const int first = get_global_id(0) * WIDTH;
   if (first >= count) return;
   const Vector p = load_vectors(moved + 3 * first, count - first);
   const Vector n = load_vectors(normals + 3 * first, count - first);
-  Vector q, m;
-  load_targets(p, count - first, camera, size, target_points, target_normals, &q, &m);
-  const Vector way = {p.x - q.x, p.y - q.y, p.z - q.z};
-  const Lanes distance = sqrt(inner(way, way));
-  const Truth has_normal = inner(n, n) > (Lanes)0;
-  const Truth is_facing = !has_normal || -inner(n, p) >= least_facing * sqrt(inner(p, p));
-  const Truth is_alike = !(has_normal && inner(m, m) > (Lanes)0) || inner(n, m) >= (Lanes)least_cosine;
+  const Pixels pixels = project(p, camera, size);
+  const Vector q = gather(pixels, target_points);
+  const Truth is_known = are_facing(p, n, least_facing) &&
+                         are_acceptable(p, n, q, gather(pixels, target_normals), max_distance, least_cosine);
   float values[WIDTH];
-  STORE(
-      select((Lanes)-1, distance, q.z > (Lanes)0 && is_facing && is_alike && distance <= (Lanes)max_distance),
-      values);
-  for (int lane = 0; lane < min(WIDTH, count - first); ++lane) distances[first + lane] = values[lane];
-}
-
-float total(Lanes lanes) {
-  float values[WIDTH];
-  STORE(lanes, values);
-  float sum = 0;
-  for (int lane = 0; lane < WIDTH; ++lane) sum += values[lane];
-  return sum;
+  STORE(select((Lanes)-1, distances(p, q), is_known), values);
+  for (int lane = 0; lane < min(WIDTH, count - first); ++lane) residuals[first + lane] = values[lane];
 }
 
 // Per work-item of CHUNK points, in a fixed order: the sum of the residuals that are known, how many those
@@ -267,18 +274,15 @@ kernel void sum_residuals(int count, global const float* moved, float4 camera, i
   const int chunk = get_global_id(0) * CHUNK;
   const int end = min(chunk + CHUNK, count);
   if (chunk >= count) return;
-  Lanes sum = 0, matched = 0, lost = 0, squares = 0;
-  int landed = 0;
+  Lanes sum = 0, matched = 0, landed = 0, lost = 0, squares = 0;
   for (int first = chunk; first < end; first += WIDTH) {
     const Vector p = load_vectors(moved + 3 * first, end - first);
     float values[WIDTH];
-    for (int lane = 0; lane < WIDTH; ++lane) {
-      values[lane] = first + lane < end ? residual[first + lane] : -1;
-      if (first + lane < end && values[lane] < 0)
-        landed += target_pixel(vload3(first + lane, moved), camera, size, target_points) >= 0;
-    }
+    for (int lane = 0; lane < WIDTH; ++lane) values[lane] = first + lane < end ? residual[first + lane] : -1;
     const Lanes r = LOAD(values);
     const Lanes there = WHERE(LANE_OFFSETS < (Lanes)(end - first), (Lanes)1);
+    const Pixels pixels = target_pixels(p, camera, size, target_points);
+    landed += WHERE(pixels >= (Pixels)0, there);
     const Lanes known = WHERE(r >= (Lanes)0, (Lanes)1);
     const Lanes counted = select((Lanes)cut, fmin(r, (Lanes)cut), r >= (Lanes)0);
     const Truth is_finite =
@@ -288,9 +292,8 @@ kernel void sum_residuals(int count, global const float* moved, float4 camera, i
     lost += there - WHERE(is_finite, there);
     squares += there * counted * counted;
   }
-  const float known = total(matched);
   partials[get_global_id(0)] =
-      (float8)(total(sum), known, known + landed, total(lost), total(squares), 0, 0, 0);
+      (float8)(sum_of(sum), sum_of(matched), sum_of(landed), sum_of(lost), sum_of(squares), 0, 0, 0);
 }
 
 kernel void total_residual(int count, global const float8* partials, global float8* total) {

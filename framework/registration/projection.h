@@ -3,10 +3,14 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "framework/registration/target.h"
 
 namespace pliant {
+
+/// `source` behind lanes.cl and point_map.cl: what kernels over maps of points share.
+std::string with_point_map(std::string_view source);
 
 /// A kernel of projection.cl.
 cl::Kernel projection_kernel(Device& device, const std::string& name);

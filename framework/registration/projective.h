@@ -34,6 +34,9 @@ class ProjectiveCorrespondence : public Correspondence {
              Constraints& constraints) const override;
   void measure(Device& device, const PointSet& moved, const Target& target,
                Array<float>& distances) const override;
+  bool measures_matches() const override {
+    return options_.search_radius == 0 && options_.steps == 0 && options_.rim == 0;
+  }
 
   /// Plain C++ references.
   void match_reference(const PointSet& moved, const Array<int>& selected, const Target& target,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "framework/core/error.h"
@@ -157,9 +158,8 @@ class Registration {
         sampled_(follows_all_ ? PointSet{}
                               : pick_points(device, scene_.rest, Array<int>(samples_->points()))),
         model_(make_new_model()),
-        moved_(unwritten(followed())),
+        moved_(followed()),
         meter_(device, *method.correspondence, scene_.target, moved_.points.size() / 3, method.stopping.cut) {
-    update_source();
   }
 
   void match() {
@@ -226,6 +226,7 @@ class Registration {
   /// when nothing comes after it.
   void record(const Residual& residual) {
     const std::size_t iteration = history_.size();
+    shown_ = iteration;
     history_.push_back({residual.mean, residual.robust, residual.matched});
     const double enough = (1 - method_.stopping.min_gain) * history_.front().robust;
     const auto keep_if_better = [&](State& best) {
@@ -242,11 +243,24 @@ class Registration {
 
   /// Puts the source where the best iteration led, and finds what is matched there.
   void deform_best() {
-    registered_ = unwritten(scene_.rest);
-    warp(device_, scene_.rest, best_.skeleton->influences, best_.skeleton->node_points, best_.unknowns,
-         registered_);
-    matched_ = find_matched();
+    const bool is_there = follows_all_ && shown_ == best_.iteration;
+    if (is_there) {
+      registered_ = std::move(moved_);
+    } else {
+      registered_ = unwritten(scene_.rest);
+      warp(device_, scene_.rest, best_.skeleton->influences, best_.skeleton->node_points, best_.unknowns,
+           registered_);
+    }
+    matched_ = is_there && method_.correspondence->measures_matches() ? with_residual() : find_matched();
     deform_unfiltered();
+  }
+
+  std::vector<std::uint8_t> with_residual() const {
+    const auto& residuals = meter_.per_point().host();
+    std::vector<std::uint8_t> known(residuals.size());
+    std::transform(residuals.begin(), residuals.end(), known.begin(),
+                   [](float residual) { return static_cast<std::uint8_t>(residual >= 0); });
+    return known;
   }
 
   std::vector<std::uint8_t> find_matched() {
@@ -292,6 +306,7 @@ class Registration {
     try {
       match();
       solver_->solve();
+      shown_.reset();
       update_source();
       judge(meter_.measure(moved_));
     } catch (const NumericalError& error) {
@@ -431,6 +446,7 @@ class Registration {
   PointSet sampled_;         ///< the constrained points at rest, where only they are followed
   Model model_;
   PointSet moved_;       ///< those that are followed
+  std::optional<std::size_t> shown_;  ///< the iteration that `moved_` was measured after, if it was
   PointSet registered_;  ///< all, at the end
   ResidualMeter meter_;
   std::unique_ptr<BoundSolver> solver_;

@@ -1,11 +1,9 @@
 // Rigid ICP [thesis 3.3]: projective matches, point to plane [Eq. 3.2], several poses side by side. Compiled
-// behind lanes.cl.
+// behind lanes.cl and point_map.cl.
 //
 // Samples lie coordinate by coordinate (x y z of the point, then of its normal), `padded` to whole vectors; a
 // sample without a point has z = 0. A pose is 16 numbers: the rows of R, where the pivot goes, and what
 // became of it. It moves a point p to R (p - pivot) + where the pivot goes.
-
-#define FARTHEST 1e18f  // farthest_depth of image.h
 
 #define POSE_SIZE 16
 #define PIVOT 9
@@ -23,29 +21,6 @@
 #define LANDED 29
 
 #define CHUNK (16 * WIDTH)  // samples that a work-item adds up
-
-#if WIDTH == 16
-#define STORE_INT(value, address) vstore16(value, 0, address)
-#define TO_INT(value) convert_int16(value)
-#else
-#define STORE_INT(value, address) (*(address) = (value))
-#define TO_INT(value) ((int)(value))
-#endif
-
-static inline Vector minus(Vector a, Vector b) {
-  const Vector difference = {a.x - b.x, a.y - b.y, a.z - b.z};
-  return difference;
-}
-
-static inline float total(Lanes v) {
-#if WIDTH == 1
-  return v;
-#else
-  const float8 a = v.lo + v.hi;
-  const float4 b = a.lo + a.hi;
-  return (b.x + b.y) + (b.z + b.w);
-#endif
-}
 
 static inline Vector load(global const float* samples, int padded, int first) {
   const Vector v = {LOAD(samples + first), LOAD(samples + padded + first),
@@ -90,31 +65,6 @@ static inline Vector arm_of(const Motion* m, Vector p) {
 static inline Vector placed(const Motion* m, Vector arm) {
   const Vector moved = {arm.x + m->to[0], arm.y + m->to[1], arm.z + m->to[2]};
   return moved;
-}
-
-// The pixels that points project to; where `inside` does not hold, pixel 0. camera: fx, fy, cx, cy.
-static inline Truth project(Vector p, float4 camera, int2 size, Truth* inside) {
-  const Lanes scale = 1.0f / p.z;
-  const Lanes u = floor(camera.x * p.x * scale + (camera.z + 0.5f));
-  const Lanes v = floor(camera.y * p.y * scale + (camera.w + 0.5f));
-  *inside = p.z > (Lanes)0 && u >= (Lanes)0 && v >= (Lanes)0 && u < (Lanes)size.x && v < (Lanes)size.y;
-  return TO_INT(WHERE(*inside, v)) * size.x + TO_INT(WHERE(*inside, u));
-}
-
-// The vectors of a map at some pixels; those that are not finite count as none, (0, 0, 0).
-static inline Vector gather(Truth pixels, global const float* map) {
-  int at[WIDTH];
-  float x[WIDTH], y[WIDTH], z[WIDTH];
-  STORE_INT(pixels, at);
-#pragma unroll
-  for (int lane = 0; lane < WIDTH; ++lane) {
-    x[lane] = map[3 * at[lane]];
-    y[lane] = map[3 * at[lane] + 1];
-    z[lane] = map[3 * at[lane] + 2];
-  }
-  const Vector v = {LOAD(x), LOAD(y), LOAD(z)};
-  const Lanes farthest = FARTHEST;
-  return only(fabs(v.x) < farthest && fabs(v.y) < farthest && fabs(v.z) < farthest, v);
 }
 
 // ------------------------------------------------------------------------------------------------- samples
@@ -227,13 +177,12 @@ kernel void accumulate(int count, int level, int padded, global const float* sam
     const Vector p = load(samples, padded, i);
     const Vector arm = arm_of(&motion, p);
     const Vector moved = placed(&motion, arm);
-    Truth inside;
-    const Truth pixels = project(moved, camera, size, &inside);
+    const Pixels pixels = project(moved, camera, size);
     const Vector q = gather(pixels, points);
     const Vector n = gather(pixels, normals);
     const Vector own = turned(&motion, load(samples + 3 * padded, padded, i));
     const Vector offset = minus(moved, q);
-    const Truth lands = inside && p.z > (Lanes)0 && q.z > (Lanes)0;
+    const Truth lands = p.z > (Lanes)0 && q.z > (Lanes)0;
     const Truth matches = lands && inner(n, n) > (Lanes)0 && inner(offset, offset) <= (Lanes)(far * far) &&
                           fabs(inner(offset, n)) <= (Lanes)farthest_plane &&
                           (inner(own, n) >= (Lanes)least_cosine || inner(own, own) == (Lanes)0);
@@ -256,7 +205,7 @@ kernel void accumulate(int count, int level, int padded, global const float* sam
   }
   global float* partial = partials + SUMS * get_global_id(0);
 #pragma unroll
-  for (int k = 0; k <= LANDED; ++k) partial[k] = total(sums[k]);
+  for (int k = 0; k <= LANDED; ++k) partial[k] = sum_of(sums[k]);
   for (int k = LANDED + 1; k < SUMS; ++k) partial[k] = 0;
 }
 
@@ -386,15 +335,15 @@ kernel void judge(int count, int padded_source, global const float* source, int 
     const Vector p = load(samples, padded, i);
     const Vector moved = placed(&motion, arm_of(&motion, p));
     const Vector normal = turned(&motion, load(samples + 3 * padded, padded, i));
-    Truth inside;
-    const Vector q = gather(project(moved, camera, size, &inside), points);
+    const Pixels pixels = project(moved, camera, size);
+    const Vector q = gather(pixels, points);
     const Vector offset = minus(moved, q);
-    const Truth counts = inside && p.z > (Lanes)0 && inner(normal, moved) <= (Lanes)0;
+    const Truth counts = pixels >= (Pixels)0 && p.z > (Lanes)0 && inner(normal, moved) <= (Lanes)0;
     const Lanes distance = fmin(sqrt(inner(offset, offset)), farthest);
     sum += WHERE(counts, select(farthest, distance, q.z > (Lanes)0));
     known += WHERE(counts, (Lanes)1);
   }
-  partials[get_global_id(0)] = (float2)(total(sum), total(known));
+  partials[get_global_id(0)] = (float2)(sum_of(sum), sum_of(known));
 }
 
 // The mean of both ways' means, in mm; one that knows too few samples counts as cut.

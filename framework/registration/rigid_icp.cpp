@@ -8,7 +8,6 @@
 #include <cmath>
 #include <optional>
 
-#include "framework/device/lanes.h"
 #include "framework/problem/equation_source.h"
 #include "framework/registration/projection.h"
 #include "framework/registration/rigid_equation.h"
@@ -47,8 +46,8 @@ void make_room(Array<float>& array, std::size_t size) {
 
 cl::Kernel icp_kernel(Device& device, const std::string& name) {
   const auto source_over = [](const std::string& real) {
-    return with_lanes(as_opencl(embedded::framework_registration_rigid_equation_h, real) +
-                      std::string(embedded::framework_registration_rigid_icp_cl));
+    return with_point_map(as_opencl(embedded::framework_registration_rigid_equation_h, real) +
+                          std::string(embedded::framework_registration_rigid_icp_cl));
   };
   static const std::string scalar = source_over("float");
   static const std::string vector = source_over("float16");

@@ -337,6 +337,8 @@ class SpoiltCorrespondence : public Correspondence {
     correspondence_->measure(device, moved, target, distances);
   }
 
+  bool measures_matches() const override { return false; }
+
  private:
   std::unique_ptr<Correspondence> correspondence_;
   mutable int matches_ = 0;
