@@ -43,8 +43,11 @@ class AutomaticAlignment : public Alignment {
     if (result.method == "features") options.search_angle = 0;  // it is near
     const RigidIcpResult found = run_icp(input, options, result.motion);
     result.reason += "; " + described(found);
-    if (!is_clearly_nearer(found)) {
-      result.reason += found.failed ? "" : ": not clearly nearer";
+    // Where features have moved it already, that was not for a deformation: any gain makes it more precise.
+    const bool is_better = result.method == "features" ? is_nearer(found) : is_clearly_nearer(found);
+    if (!is_better) {
+      if (!found.failed)
+        result.reason += result.method == "features" ? ": not nearer" : ": not clearly nearer";
       return result;
     }
     move(result, found.pose);
@@ -141,7 +144,7 @@ void register_automatic_alignment(Registry& registry) {
   registry.add<Alignment>(
       "automatic",
       "By `features` where there is colour and that brings the source nearer to the target; from there, or "
-      "else from far, by `icp` where that brings it clearly nearer; else as `none`",
+      "else from far, by `icp` where that brings it nearer, from far clearly so; else as `none`",
       ParameterTable(std::move(rows)), [](const Parameters& parameters, const Registry&) {
         return std::make_unique<AutomaticAlignment>(read_feature_options(parameters),
                                                     parameters.real("near_enough"),

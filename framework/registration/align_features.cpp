@@ -126,6 +126,7 @@ void refine(const PointMatches& matches, double inlier_distance, Hypothesis& hyp
 struct Features {
   cv::Mat descriptors;  // float, one row a feature
   std::vector<Eigen::Vector3d> points;
+  std::vector<double> radii;  // mm on the surface
 };
 
 cv::Mat to_grey(const ColorImage& color) {
@@ -167,6 +168,47 @@ cv::Mat scaled(const cv::Mat& image, double scale, int interpolation) {
   return result;
 }
 
+/// The depth of the plane through the depths around a place in the image, without what lies in front or
+/// behind: a single one carries all its noise, which is far greater than what a feature is astray in the
+/// image.
+double depth_around(const RgbdFrame& frame, const cv::Mat& usable, const cv::Point2d& at) {
+  constexpr int radius = 2;            // pixels
+  constexpr double same_surface = 30;  // mm
+  const cv::Point middle(cvRound(at.x), cvRound(at.y));
+  const auto depth = [&](const cv::Point& pixel) -> double { return frame.depth(pixel.x, pixel.y); };
+  const auto is_near = [&](const cv::Point& pixel) {
+    return pixel.inside({{0, 0}, usable.size()}) && usable.at<std::uint8_t>(pixel) != 0 &&
+           std::abs(depth(pixel) - depth(middle)) < same_surface;
+  };
+  double sum = 0;
+  int count = 0;
+  cv::Point2d rise(0, 0);
+  cv::Point2d run(0, 0);
+  for (int dv = -radius; dv <= radius; ++dv) {
+    for (int du = -radius; du <= radius; ++du) {
+      const cv::Point step(du, dv);
+      // Only with the pixel across, so that mean and slopes do not depend on each other.
+      if (!is_near(middle + step) || !is_near(middle - step)) continue;
+      sum += depth(middle + step);
+      rise += cv::Point2d(step) * depth(middle + step);
+      run += cv::Point2d(du * du, dv * dv);
+      ++count;
+    }
+  }
+  const cv::Point2d beside = at - cv::Point2d(middle);
+  double result = sum / count;
+  if (run.x > 0) result += beside.x * rise.x / run.x;
+  if (run.y > 0) result += beside.y * rise.y / run.y;
+  return result;
+}
+
+/// An object that covers few pixels is not shrunk as much as asked for: it would have no features left.
+double scale_for(const RgbdFrame& source, double scale) {
+  constexpr double fewest_pixels = 6000;
+  const int pixels = cv::countNonZero(usable_pixels(source));
+  return pixels > 0 ? std::clamp(std::sqrt(fewest_pixels / pixels), scale, 1.0) : scale;
+}
+
 Features find_features(const RgbdFrame& frame, const Camera& camera, double scale, const std::string& which) {
   if (frame.color.empty()) {
     throw DataError(fmt::format("{}: alignment `features` needs a colour image", which));
@@ -184,7 +226,8 @@ Features find_features(const RgbdFrame& frame, const Camera& camera, double scal
     const cv::Point2d at = (cv::Point2d(keypoints[i].pt) + centre) / scale - centre + cv::Point2d(part.tl());
     const cv::Point pixel(cvRound(at.x), cvRound(at.y));
     if (!pixel.inside({{0, 0}, usable.size()}) || usable.at<std::uint8_t>(pixel) == 0) continue;
-    features.points.push_back(camera.unproject(at.x, at.y, frame.depth(pixel.x, pixel.y)));
+    features.points.push_back(camera.unproject(at.x, at.y, depth_around(frame, usable, at)));
+    features.radii.push_back(keypoints[i].size / 2 / scale * features.points.back().z() / camera.fx);
     features.descriptors.push_back(descriptors.row(static_cast<int>(i)));
   }
   if (features.points.size() < 2) {
@@ -211,8 +254,9 @@ PointMatches match(Features& source, Features& target, double ratio) {
   PointMatches matches;
   for (std::size_t i = 0; i < indices.size(); ++i) {
     if (!(squared[i][0] < ratio * ratio * squared[i][1])) continue;
-    matches.from.push_back(source.points[i]);
-    matches.to.push_back(target.points[indices[i][0]]);
+    const auto found = static_cast<std::size_t>(indices[i][0]);
+    matches.add(source.points[i], target.points[found],
+                static_cast<float>(feature_confidence(std::max(source.radii[i], target.radii[found]))));
   }
   return matches;
 }
@@ -283,14 +327,19 @@ PointMatches keep_deformable(const PointMatches& matches, const Eigen::Isometry3
     if ((motion * matches.from[i] - matches.to[i]).norm() < max_deformation) near.push_back(i);
   PointMatches kept;
   for (const std::size_t i : near) {
-    if (!agrees_with_neighbours(matches, near, i)) continue;
-    kept.from.push_back(matches.from[i]);
-    kept.to.push_back(matches.to[i]);
+    if (agrees_with_neighbours(matches, near, i))
+      kept.add(matches.from[i], matches.to[i], matches.confidence[i]);
   }
   return kept;
 }
 
-PointMatches match_features(const FramePair& pair, double ratio, double scale) {
+double feature_confidence(double radius) {
+  constexpr double precise_radius = 5;  // mm
+  return std::min(1.0, std::pow(precise_radius / radius, 2));
+}
+
+PointMatches match_features(const FramePair& pair, double ratio, double least_scale) {
+  const double scale = scale_for(pair.source, least_scale);
   // Both at once: most of the detector runs on one processor only.
   auto found = std::async(std::launch::async, [&] {
     return find_features(pair.target, pair.camera, scale, pair.name + ", target");
@@ -312,7 +361,8 @@ std::vector<Parameter> feature_rows() {
   return {
       real("scale", defaults.scale)
           .range(0.1, 1)
-          .doc("Images are shrunk by this before features are looked for: half takes a quarter of the time"),
+          .doc("Images are shrunk by this before features are looked for: half takes a quarter of the time; "
+               "less where the object would be left with fewer than 6000 pixels"),
       real("ratio", defaults.ratio)
           .range(0.1, 1)
           .doc("Greatest ratio of a match's descriptor distance to that of the second best"),

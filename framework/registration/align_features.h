@@ -40,7 +40,14 @@ struct FeatureOptions {
 
 /// Matches of colour features [SIFT, ratio test of Lowe 2004] that have depth and lie inside the masks.
 /// Throws DataError without colour or with fewer than two features in either frame.
-PointMatches match_features(const FramePair& pair, double ratio, double scale = 1);
+/// Depth is that of a plane through 5 x 5 pixels. Where the source covers fewer than 6000 pixels at
+/// `least_scale`, images are shrunk less, at most not at all.
+PointMatches match_features(const FramePair& pair, double ratio, double least_scale = 1);
+
+/// How a match counts whose greater feature has this radius on the surface (mm): what is found in a coarse
+/// level of the scale space is as many times less precise, and a squared residual weighs 1 / variance.
+/// Features below 5 mm count as 1: there depth is what limits them.
+double feature_confidence(double radius);
 
 /// Rigid motion by colour features, and the matches that go with it.
 /// Throws as match_features does.

@@ -61,6 +61,10 @@ bool is_clearly_nearer(const RigidIcpResult& result) {
   return !result.failed && result.after.mean < (1 - least_gain) * result.before.mean;
 }
 
+bool is_nearer(const RigidIcpResult& result) {
+  return !result.failed && result.after.mean < result.before.mean;
+}
+
 std::string described(const RigidIcpResult& result) {
   if (result.failed) return "ICP failed: " + result.reason;
   return fmt::format("ICP: two-way residual {:.2f} -> {:.2f} mm, {} of {} points match to {:.2f} mm{}{}",

@@ -17,6 +17,9 @@ RigidIcpResult run_icp(const AlignmentInput& input, const RigidIcpOptions& optio
 /// deformation leaves a residual that moving the whole hardly lowers.
 bool is_clearly_nearer(const RigidIcpResult& result);
 
+/// Whether ICP lowered the two-way residual at all.
+bool is_nearer(const RigidIcpResult& result);
+
 /// What came of it, in words: "ICP: two-way residual 14.7 -> 1.6 mm, ..."
 std::string described(const RigidIcpResult& result);
 

@@ -80,7 +80,7 @@ std::shared_ptr<Constraints> make_feature_constraints(Device& device, const Meth
   auto constraints = make_constraints(
       points, compute_influences(device, flatten(points), node_positions, method.nearest_nodes));
   constraints->data = Array<float>(std::move(pulls));
-  constraints->confidence = Array<float>(std::vector<float>(points.size(), 1.0F));
+  constraints->confidence = Array<float>(features.confidence);
   return constraints;
 }
 

@@ -10,6 +10,7 @@
 #include "framework/geometry/depth_map.h"
 #include "framework/registration/align_automatic.h"
 #include "framework/registration/align_features.h"
+#include "framework/registration/align_icp.h"
 #include "framework/registration/alignments.h"
 
 namespace pliant {
@@ -36,8 +37,8 @@ PointMatches make_matches(int good, int bad) {
   std::mt19937 random(3);
   PointMatches matches;
   for (int i = 0; i < good + bad; ++i) {
-    matches.from.push_back(random_point(random));
-    matches.to.push_back(i < good ? a_motion() * matches.from.back() : random_point(random));
+    const Eigen::Vector3d from = random_point(random);
+    matches.add(from, i < good ? a_motion() * from : random_point(random));
   }
   return matches;
 }
@@ -71,8 +72,7 @@ TEST(RigidRansac, FitsToAllInliers) {
 TEST(RigidRansac, NeedsATriangle) {
   EXPECT_EQ(fit_rigid_ransac(make_matches(2, 0), {}, 1).inliers, 0);
   PointMatches line;
-  for (int i = 0; i < 50; ++i) line.from.emplace_back(10 * i, 0, 1000);
-  line.to = line.from;
+  for (int i = 0; i < 50; ++i) line.add({10.0 * i, 0, 1000}, {10.0 * i, 0, 1000});
   const AlignmentResult result = fit_rigid_ransac(line, {}, 1);
   EXPECT_EQ(result.inliers, 0);
   EXPECT_TRUE(result.motion.matrix().isIdentity());
@@ -178,6 +178,60 @@ TEST(FeatureAlignment, FindsFewerFeaturesOfTheSamePlacesInShrunkImages) {
     errors.push_back((a_motion() * half.from[i] - half.to[i]).norm());
   std::nth_element(errors.begin(), errors.begin() + std::ssize(errors) / 2, errors.end());
   EXPECT_LT(errors[errors.size() / 2], 1) << "mm, the median; half a pixel is 1.3 mm";
+}
+
+TEST(FeatureAlignment, DoesNotShrinkWhatCoversFewPixels) {
+  FramePair small = moved_plane();
+  small.source.mask = MaskImage(320, 240, 0);
+  for (int v = 80; v < 150; ++v)
+    for (int u = 120; u < 200; ++u) small.source.mask(u, v) = 1;
+  EXPECT_GE(match_features(small, 0.85).size(), 4u);
+  EXPECT_EQ(match_features(small, 0.85, 0.25).from, match_features(small, 0.85).from);
+}
+
+/// The greatest distance of a match's source point from the plane at 800 mm that 9 of 10 stay below.
+double distance_of_most(const PointMatches& matches) {
+  std::vector<double> distances;
+  for (const Eigen::Vector3d& point : matches.from) distances.push_back(std::abs(point.z() - 800));
+  const auto most = distances.begin() + std::ssize(distances) * 9 / 10;
+  std::nth_element(distances.begin(), most, distances.end());
+  return *most;
+}
+
+TEST(FeatureAlignment, AveragesTheNoiseOfDepth) {
+  FramePair noisy = moved_plane();
+  std::mt19937 random(7);
+  std::normal_distribution<float> noise(0, 5);
+  for (int v = 0; v < 240; ++v)
+    for (int u = 0; u < 320; ++u) noisy.source.depth(u, v) += noise(random);
+  EXPECT_LT(distance_of_most(match_features(moved_plane(), 0.85)), 1e-3);
+  EXPECT_LT(distance_of_most(match_features(noisy, 0.85)), 3) << "mm; a single pixel's: 8";
+}
+
+TEST(FeatureAlignment, TakesNoDepthFromWhatLiesBehind) {
+  FramePair stepped = moved_plane();
+  for (int v = 0; v < 240; ++v)
+    for (int u = 160; u < 320; ++u) stepped.source.depth(u, v) = 1200;
+  for (const Eigen::Vector3d& point : match_features(stepped, 0.85).from)
+    EXPECT_LT(std::min(std::abs(point.z() - 800), std::abs(point.z() - 1200)), 1e-3);
+}
+
+TEST(FeatureAlignment, TrustsAFeatureByTheInverseSquareOfItsRadius) {
+  EXPECT_EQ(feature_confidence(1), 1);
+  EXPECT_EQ(feature_confidence(5), 1);
+  EXPECT_DOUBLE_EQ(feature_confidence(10), 0.25);
+  EXPECT_DOUBLE_EQ(feature_confidence(50), 0.01);
+}
+
+TEST(FeatureAlignment, TrustsFeaturesOfShrunkImagesLess) {
+  const auto mean_confidence = [](const PointMatches& matches) {
+    double sum = 0;
+    for (const float confidence : matches.confidence) sum += confidence;
+    return sum / static_cast<double>(matches.confidence.size());
+  };
+  const PointMatches whole = match_features(moved_plane(), 0.85);
+  ASSERT_EQ(whole.confidence.size(), whole.size());
+  EXPECT_GT(mean_confidence(whole), 1.2 * mean_confidence(match_features(moved_plane(), 0.85, 0.5)));
 }
 
 TEST(FeatureAlignment, GivesTheMatchesThatGoWithTheMotion) {
@@ -310,6 +364,19 @@ TEST(AutomaticAlignment, MovesWhereFeaturesBringTheSourceNearer) {
   EXPECT_GT(result.features.size(), 10u);
 }
 
+TEST(IcpAlignment, TellsAnyGainFromAClearOne) {
+  RigidIcpResult result;
+  result.before.mean = 10;
+  result.after.mean = 9;
+  EXPECT_TRUE(is_nearer(result));
+  EXPECT_FALSE(is_clearly_nearer(result));
+  result.after.mean = 10;
+  EXPECT_FALSE(is_nearer(result));
+  result.after.mean = 1;
+  result.failed = true;
+  EXPECT_FALSE(is_nearer(result));
+}
+
 TEST(AutomaticAlignment, LooksForNoFeaturesThatNobodyNeeds) {
   FramePair near = moved_plane();
   near.target = render_plane(Eigen::Isometry3d(Eigen::Translation3d(0, 0, 15)), 11);
@@ -411,8 +478,8 @@ PointMatches rolled_sheet() {
   for (int i = 0; i < 10; ++i) {
     for (int j = 0; j < 10; ++j) {
       const double s = 20.0 * i;
-      matches.from.emplace_back(s, 20.0 * j, 800);
-      matches.to.emplace_back(150 * std::sin(s / 150), 20.0 * j, 800 - 150 * (1 - std::cos(s / 150)));
+      matches.add({s, 20.0 * j, 800},
+                  {150 * std::sin(s / 150), 20.0 * j, 800 - 150 * (1 - std::cos(s / 150))});
     }
   }
   return matches;
@@ -426,8 +493,11 @@ TEST(KeepDeformable, DropsMatchesThatFlyOffTheSurface) {
   PointMatches matches = rolled_sheet();
   matches.to[44] += Eigen::Vector3d(0, 60, 0);    // within reach, but away from its neighbours
   matches.to[77] += Eigen::Vector3d(0, 0, 1000);  // out of reach
+  matches.confidence[99] = 0.5F;
   const PointMatches kept = keep_deformable(matches, Eigen::Isometry3d::Identity(), 200);
   EXPECT_EQ(kept.size(), 98u);
+  EXPECT_EQ(kept.confidence.size(), 98u);
+  EXPECT_EQ(kept.confidence.back(), 0.5F) << "goes with its match";
   for (const auto& point : kept.from) {
     EXPECT_NE(point, matches.from[44]);
     EXPECT_NE(point, matches.from[77]);

@@ -513,6 +513,21 @@ TEST_F(RegistrationTest, FeaturesAskForNothingWithoutColor) {
     ASSERT_LT((with.points[i] - without.points[i]).norm(), 1e-2) << "point " << i;
 }
 
+TEST_F(RegistrationTest, FeaturesPullByTheirConfidence) {
+  const std::vector<std::string> settings{"alignment=automatic", "energies.feature={weight: 1}"};
+  const FramePair pair = pair_of(settings);
+  const Method method = method_of(settings);
+  const std::vector<float> expected = register_pair(pair, method, device_, 1).alignment.features.confidence;
+  ASSERT_FALSE(expected.empty());
+  EXPECT_LT(*std::min_element(expected.begin(), expected.end()), 1);
+  const std::unique_ptr<Problem> problem = freeze_problem(pair, method, device_, 1);
+  const auto& terms = problem->terms();
+  const auto term = std::find_if(terms.begin(), terms.end(),
+                                 [](const Term& other) { return other.energy.uses_features(); });
+  ASSERT_NE(term, terms.end());
+  EXPECT_EQ(term->constraints->confidence.host(), expected);
+}
+
 // Rolled like this the thesis's constraints alone slide along the viewing rays; the features know better.
 TEST_F(RegistrationTest, FeaturesPullWhereDepthCannotTell) {
   const std::vector<std::string> plain{"alignment=automatic",         "data.image_width=320",
