@@ -37,6 +37,11 @@ std::set<const ResultFolder*>& open_folders() {
   return folders;
 }
 
+/// Of a list that someone has edited: nothing outside of the folder is the result's.
+bool leads_out(const fs::path& file) {
+  return file.is_absolute() || std::find(file.begin(), file.end(), "..") != file.end();
+}
+
 /// The files that `folder` lists as a result's, and those that results in folders of this one do.
 Files listed(const fs::path& folder) {
   std::error_code ignored;
@@ -49,7 +54,7 @@ Files listed(const fs::path& folder) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const fs::path file = text.substr(at, end - at);
     at = end + 1;
-    if (file.empty() || file.native().front() == '#') continue;
+    if (file.empty() || file.native().front() == '#' || leads_out(file)) continue;
     files.push_back(file);
     if (file.has_parent_path()) below.insert(*file.begin());
   }

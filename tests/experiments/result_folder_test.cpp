@@ -84,6 +84,16 @@ TEST_F(ResultFolderTest, FilesOfOthersStay) {
   EXPECT_EQ(names(), (Names{".pliant", "result.json", "notes", "a/notes"}));
 }
 
+TEST_F(ResultFolderTest, AListThatWasEditedLeadsNowhereElse) {
+  begin({"result.json", "a/one"}, "old")->commit();
+  const std::string mine = file("above/mine");
+  write("above/mine", "mine");
+  write("above/out/.pliant", "result.json\na/one\n../mine\na/../../mine\n" + mine + "\n");
+  begin({"result.json"}, "new")->commit();
+  EXPECT_EQ(names(), (Names{".pliant", "result.json"}));
+  EXPECT_TRUE(fs::exists(mine));
+}
+
 TEST_F(ResultFolderTest, RefusesToReplaceWhatIsNotOfAnEarlierResult) {
   fs::create_directories(out_ / "folder.png");
   write("above/out/notes", "mine");
