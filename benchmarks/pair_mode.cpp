@@ -13,9 +13,9 @@
 #include "experiments/runner/components.h"
 #include "experiments/runner/experiment.h"
 #include "experiments/runner/workbench.h"
-#include "framework/registration/metrics.h"
+#include "framework/core/stopwatch.h"
+#include "framework/evaluation/metrics.h"
 #include "framework/registration/registration.h"
-#include "framework/registration/stopwatch.h"
 
 namespace pliant::bench {
 namespace {
@@ -111,7 +111,7 @@ class Subject {
   void warm_up() {
     const Stopwatch watch;
     const RegistrationResult result = register_pair(pair_, method_, device_, seed_);
-    const Evaluation evaluation(pair_, result.source, make_surface_map(pair_.target, pair_.camera));
+    const Evaluation evaluation(pair_, result.source, make_surface_image(pair_.target, pair_.camera));
     initial_ = evaluation.measure(result.source.points);
     metrics_ = evaluation.measure(result.points);
     counts_ = result.counts;

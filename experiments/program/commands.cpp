@@ -10,9 +10,9 @@
 #include "experiments/runner/compare.h"
 #include "experiments/runner/components.h"
 #include "experiments/runner/runner.h"
+#include "framework/config/schema.h"
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
-#include "framework/core/schema.h"
 
 namespace pliant {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/config.h"
+#include "framework/config/config.h"
 
 namespace pliant {
 

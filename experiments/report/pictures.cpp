@@ -44,7 +44,7 @@ Image<float> at_source_pixels(const Input& input, const std::vector<float>& valu
   return image;
 }
 
-Image<float> target_depth(const SurfaceMap& target) {
+Image<float> target_depth(const SurfaceImage& target) {
   Image<float> image(target.points.width(), target.points.height(), nothing);
   for (std::size_t i = 0; i < image.size(); ++i) {
     const float depth = target.points.data()[i].z();
@@ -97,7 +97,7 @@ std::vector<Picture> draw_depths(const ReportInput& input) {
       std::count_if(target.pixels().begin(), target.pixels().end(), [](float depth) { return depth > 0; });
   return {draw("depth_source.png", "Source depth", at_source_pixels(input, depths(source.points)), scale,
                count_points(source.size())),
-          draw("depth_target.png", "Target depth", target, scale,
+          draw("depth_target.png", "SurfaceMap depth", target, scale,
                count_points(static_cast<std::size_t>(target_points)))};
 }
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "framework/evaluation/metrics.h"
 #include "framework/geometry/frame.h"
 #include "framework/registration/edit.h"
-#include "framework/registration/metrics.h"
 #include "framework/registration/result.h"
 
 namespace pliant {
@@ -46,7 +46,7 @@ struct NearestDistances {
 /// What a report may draw on for one run.
 struct ReportInput {
   const FramePair& pair;
-  const SurfaceMap& target;
+  const SurfaceImage& target;
   const NearestDistances& nearest;
   const RunRecord& run;
 };

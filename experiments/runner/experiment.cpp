@@ -8,7 +8,7 @@
 
 #include "experiments/datasets/data_source.h"
 #include "experiments/report/report.h"
-#include "framework/core/config_reader.h"
+#include "framework/config/config_reader.h"
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
 #include "framework/registration/handle.h"

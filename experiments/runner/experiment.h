@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/config.h"
+#include "framework/config/config.h"
 
 namespace pliant {
 

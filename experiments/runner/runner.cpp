@@ -126,7 +126,7 @@ RunRecord make_run(const ExperimentPlan::Run& run, const fs::path& folder, Workb
     });
   });
   device.measure_stages(false);
-  const SurfaceMap target = make_surface_map(pair.target, pair.camera);
+  const SurfaceImage target = make_surface_image(pair.target, pair.camera);
   const Evaluation evaluation(pair, record.result.source, target);
   const NearestDistances nearest = measure(evaluation, record, progress);
   write_reports(run, ReportInput{pair, target, nearest, record}, folder, workbench.registry(), progress);

@@ -1,4 +1,4 @@
-#include "framework/core/config.h"
+#include "framework/config/config.h"
 
 #include <algorithm>
 #include <cctype>
@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "framework/core/config_overlay.h"
-#include "framework/core/config_reader.h"
-#include "framework/core/config_resolver.h"
-#include "framework/core/config_tree.h"
+#include "framework/config/config_overlay.h"
+#include "framework/config/config_reader.h"
+#include "framework/config/config_resolver.h"
+#include "framework/config/config_tree.h"
 
 namespace pliant {
 namespace {

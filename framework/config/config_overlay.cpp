@@ -1,4 +1,4 @@
-#include "framework/core/config_overlay.h"
+#include "framework/config/config_overlay.h"
 
 namespace pliant {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "framework/core/config_tree.h"
+#include "framework/config/config_tree.h"
 #include "framework/core/registry.h"
 
 namespace pliant {

@@ -1,4 +1,4 @@
-#include "framework/core/config_reader.h"
+#include "framework/config/config_reader.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "framework/core/config_tree.h"
+#include "framework/config/config_tree.h"
 
 namespace pliant {
 

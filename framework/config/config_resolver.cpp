@@ -1,4 +1,4 @@
-#include "framework/core/config_resolver.h"
+#include "framework/config/config_resolver.h"
 
 #include <algorithm>
 #include <cctype>

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "framework/core/config_overlay.h"
-#include "framework/core/config_tree.h"
+#include "framework/config/config_overlay.h"
+#include "framework/config/config_tree.h"
 #include "framework/core/registry.h"
 
 namespace pliant {

@@ -1,4 +1,4 @@
-#include "framework/core/config_tree.h"
+#include "framework/config/config_tree.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,4 +1,4 @@
-#include "framework/core/schema.h"
+#include "framework/config/schema.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "framework/core/config_resolver.h"
+#include "framework/config/config_resolver.h"
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
 

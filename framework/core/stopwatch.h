@@ -1,11 +1,13 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <string>
 
-#include "framework/device/device.h"
-
 namespace pliant {
+
+/// Milliseconds spent on each named stage.
+using StageTimes = std::map<std::string, double>;
 
 class Stopwatch {
  public:

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "framework/core/log.h"
+#include "framework/core/stopwatch.h"
 
 namespace pliant {
 
@@ -30,9 +31,6 @@ struct DeviceInfo {
   std::size_t memory_bytes = 0;
   std::size_t most_bytes = 0;  ///< that one buffer may have
 };
-
-/// Time that each stage of a computation took on the device, in milliseconds.
-using StageTimes = std::map<std::string, double>;
 
 /// An OpenCL device with one in-order queue. Kernels are enqueued and never waited for; only reading
 /// results back waits. Not thread-safe. Failures raise DeviceError.

@@ -1,4 +1,4 @@
-#include "framework/registration/metrics.h"
+#include "framework/evaluation/metrics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ double percentile_95(std::vector<float> values) {
 
 }  // namespace
 
-Evaluation::Evaluation(const FramePair& pair, const Surface& source, SurfaceMap target)
+Evaluation::Evaluation(const FramePair& pair, const Surface& source, SurfaceImage target)
     : camera_(pair.camera), target_(std::move(target)), nearest_(target_.points, camera_) {
   check(pair);
   if (nearest_.empty()) throw DataError(pair.name + ": the target has no point to measure against");

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "framework/evaluation/nearest_points.h"
 #include "framework/geometry/frame.h"
 #include "framework/geometry/surface.h"
-#include "framework/registration/nearest_points.h"
 
 namespace pliant {
 
@@ -40,7 +40,7 @@ class Evaluation {
  public:
   /// `source`: the source as given (its pixels look up the truth); `target`: the target's valid points.
   /// Throws DataError when the target has none, and as `check` of a pair does.
-  Evaluation(const FramePair& pair, const Surface& source, SurfaceMap target);
+  Evaluation(const FramePair& pair, const Surface& source, SurfaceImage target);
   Evaluation(const Evaluation&) = delete;
   Evaluation& operator=(const Evaluation&) = delete;
 
@@ -61,7 +61,7 @@ class Evaluation {
   std::optional<Metrics::Truth> measure_truth(const std::vector<Eigen::Vector3f>& points) const;
 
   Camera camera_;
-  SurfaceMap target_;
+  SurfaceImage target_;
   NearestPoints nearest_;
   std::vector<Eigen::Vector3f> truth_;  // true position per source point, NaN where unknown
   std::vector<bool> moving_;

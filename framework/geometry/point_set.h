@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "framework/device/array.h"
@@ -16,5 +16,9 @@ struct PointSet {
 /// Vectors as x y z in turn, and back. Reading vectors that a device wrote waits for it.
 Array<float> flatten(const std::vector<Eigen::Vector3f>& vectors);
 std::vector<Eigen::Vector3f> unflatten(const Array<float>& values);
+
+/// The points of a set, or of a map, at some indices, moved rigidly. Only enqueues.
+PointSet pick_points(Device& device, const PointSet& set, const Array<int>& indices,
+                     const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity());
 
 }  // namespace pliant

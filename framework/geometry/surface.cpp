@@ -96,9 +96,9 @@ Eigen::Vector3d find_normal(const PointImage& points, int u, int v, int radius, 
 
 }  // namespace
 
-SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius, float depth_step) {
+SurfaceImage make_surface_image(const RgbdFrame& frame, const Camera& camera, int radius, float depth_step) {
   check_same_size(frame.mask, frame.depth.width(), frame.depth.height(), "mask");
-  SurfaceMap map{make_points(frame, camera), {}};
+  SurfaceImage map{make_points(frame, camera), {}};
   map.normals = PointImage(map.points.width(), map.points.height(), Eigen::Vector3f::Zero());
   for (int v = 0; v < map.points.height(); ++v) {
     for (int u = 0; u < map.points.width(); ++u) {
@@ -111,7 +111,7 @@ SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int ra
   return map;
 }
 
-Surface make_surface(const SurfaceMap& map, const ColorImage& color) {
+Surface make_surface(const SurfaceImage& map, const ColorImage& color) {
   check_same_size(color, map.points.width(), map.points.height(), "colour");
   Surface surface;
   for (int v = 0; v < map.points.height(); ++v) {

@@ -21,7 +21,7 @@ struct Surface {
 
 /// The points of a depth map as images: a target for projective matching. A pixel without a point is
 /// (0, 0, 0) in both.
-struct SurfaceMap {
+struct SurfaceImage {
   Image<Eigen::Vector3f> points;
   Image<Eigen::Vector3f> normals;
 };
@@ -46,10 +46,10 @@ inline constexpr float edge_on = 0.01F;
 /// `is_depth` holds count, and only those inside the mask where there is one. A normal comes from the plane
 /// fitted to the valid points of the (2 radius + 1)^2 window whose depth differs from the centre's by less
 /// than `depth_step` mm [thesis 3.1]; at least three neighbours are needed.
-SurfaceMap make_surface_map(const RgbdFrame& frame, const Camera& camera, int radius = default_normal_radius,
-                            float depth_step = default_depth_step);
+SurfaceImage make_surface_image(const RgbdFrame& frame, const Camera& camera,
+                                int radius = default_normal_radius, float depth_step = default_depth_step);
 
 /// The valid points of a map as a list, with colours from `color` when that is not empty.
-Surface make_surface(const SurfaceMap& map, const ColorImage& color);
+Surface make_surface(const SurfaceImage& map, const ColorImage& color);
 
 }  // namespace pliant

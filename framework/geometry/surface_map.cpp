@@ -1,13 +1,47 @@
-#include "framework/registration/target.h"
+#include "framework/geometry/surface_map.h"
 
+#include <cmath>
 #include <utility>
+
+#include "framework/device/lanes.h"
+#include "framework/geometry/surface_map.cl.embed.h"
 
 namespace pliant {
 
-Target::Target(const Camera& camera, PointSet map)
+SurfaceMap::SurfaceMap(const Camera& camera, PointSet map)
     : camera(camera), points(std::move(map.points)), normals(std::move(map.normals)) {}
 
-Target::Target(const Camera& camera, const SurfaceMap& map)
-    : Target(camera, PointSet{flatten(map.points.pixels()), flatten(map.normals.pixels())}) {}
+SurfaceMap::SurfaceMap(const Camera& camera, const SurfaceImage& image)
+    : SurfaceMap(camera, PointSet{flatten(image.points.pixels()), flatten(image.normals.pixels())}) {}
+
+std::string with_surface_map(std::string_view source) {
+  return with_lanes(std::string(embedded::framework_geometry_surface_map_cl).append(source));
+}
+
+cl_float4 pinhole(const Camera& camera) {
+  return {{static_cast<float>(camera.fx), static_cast<float>(camera.fy), static_cast<float>(camera.cx),
+           static_cast<float>(camera.cy)}};
+}
+
+cl_int2 image_size(const Camera& camera) { return {{camera.width, camera.height}}; }
+
+Eigen::Vector3f finite_or_none(const Array<float>& vectors, std::size_t index) {
+  const Eigen::Map<const Eigen::Vector3f> vector(vectors.host().data() + 3 * index);
+  return (vector.array().abs() < farthest_depth).all() ? Eigen::Vector3f(vector) : Eigen::Vector3f::Zero();
+}
+
+std::optional<std::size_t> seen_pixel_reference(const SurfaceMap& map, const Eigen::Vector3f& point) {
+  if (!(point.z() > 0)) return std::nullopt;
+  const cl_float4 camera = pinhole(map.camera);
+  const float u = std::floor(camera.s[0] * point.x() / point.z() + (camera.s[2] + 0.5F));
+  const float v = std::floor(camera.s[1] * point.y() / point.z() + (camera.s[3] + 0.5F));
+  const bool is_inside = u >= 0 && v >= 0 && u < static_cast<float>(map.camera.width) &&
+                         v < static_cast<float>(map.camera.height);
+  if (!is_inside) return std::nullopt;
+  const auto pixel =
+      static_cast<std::size_t>(v) * static_cast<std::size_t>(map.camera.width) + static_cast<std::size_t>(u);
+  if (!(finite_or_none(map.points, pixel).z() > 0)) return std::nullopt;
+  return pixel;
+}
 
 }  // namespace pliant

@@ -1,4 +1,4 @@
-#include "framework/geometry/bilateral.h"
+#include "framework/imaging/bilateral.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "framework/geometry/depth_kernel.h"
+#include "framework/imaging/depth_kernel.h"
 
 namespace pliant {
 namespace {

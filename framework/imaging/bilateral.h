@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "framework/geometry/depth_filter.h"
+#include "framework/imaging/depth_filter.h"
 
 namespace pliant {
 

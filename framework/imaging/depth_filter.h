@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "framework/core/registry.h"
-#include "framework/geometry/depth_map.h"
+#include "framework/imaging/depth_map.h"
 
 namespace pliant {
 

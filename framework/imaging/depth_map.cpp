@@ -1,12 +1,12 @@
-#include "framework/geometry/depth_map.h"
+#include "framework/imaging/depth_map.h"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
 
 #include "framework/device/lanes.h"
-#include "framework/geometry/depth_kernel.h"
-#include "framework/geometry/depth_map.cl.embed.h"
+#include "framework/imaging/depth_kernel.h"
+#include "framework/imaging/depth_map.cl.embed.h"
 
 namespace pliant {
 namespace {
@@ -15,18 +15,14 @@ constexpr std::size_t group = 64;
 
 int round_up(int value, int step) { return (value + step - 1) / step * step; }
 
-cl_float4 row_of(const Eigen::Isometry3d& motion, int row) {
-  const Eigen::Vector4f values = motion.matrix().row(row).cast<float>();
-  return {{values[0], values[1], values[2], values[3]}};
-}
-
 }  // namespace
 
 cl::Kernel depth_kernel(Device& device, const std::string& name) {
-  static const std::string source = with_lanes(embedded::framework_geometry_depth_map_cl);
+  static const std::string source = with_lanes(embedded::framework_imaging_depth_map_cl);
   static const std::string options = fmt::format(
       "-DHALO={} -DNO_DEPTH={:e}f -DFEWEST_POINTS={} -DFLATTEST={:e}f -DWIDEST={} -DEDGE_ON={:e}f",
-      DepthMap::halo, DepthMap::no_depth, fewest_plane_points, flattest_spread, widest_normal_radius, edge_on);
+      DepthMap::halo, DepthMap::no_depth, fewest_plane_points, flattest_spread, widest_normal_radius,
+      edge_on);
   return device.kernel(source, name, options);
 }
 
@@ -90,17 +86,6 @@ PointSet make_surface_map(Device& device, const DepthMap& map, const Camera& cam
              cl_int2{{map.width, map.height}}, pinhole, static_cast<cl_int>(radius), depth_step,
              surface.points.write_device(device), surface.normals.write_device(device));
   return surface;
-}
-
-PointSet pick_points(Device& device, const PointSet& map, const Array<int>& pixels,
-                     const Eigen::Isometry3d& motion) {
-  PointSet picked{Array<float>(3 * pixels.size()), Array<float>(3 * pixels.size())};
-  auto kernel = depth_kernel(device, "pick");
-  device.run("surface", kernel, pixels.size(), group, static_cast<cl_int>(pixels.size()),
-             pixels.device(device), map.points.device(device), map.normals.device(device), row_of(motion, 0),
-             row_of(motion, 1), row_of(motion, 2), picked.points.write_device(device),
-             picked.normals.write_device(device));
-  return picked;
 }
 
 }  // namespace pliant

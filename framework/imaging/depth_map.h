@@ -49,8 +49,4 @@ inline constexpr int max_window_radius = DepthMap::halo;
 PointSet make_surface_map(Device& device, const DepthMap& map, const Camera& camera,
                           int radius = default_normal_radius, float depth_step = default_depth_step);
 
-/// The points of a map at some pixels (row-major offsets), moved rigidly. Only enqueues.
-PointSet pick_points(Device& device, const PointSet& map, const Array<int>& pixels,
-                     const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity());
-
 }  // namespace pliant

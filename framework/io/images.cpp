@@ -37,10 +37,10 @@ void write_png(const std::string& path, const cv::Mat& image) {
   write_file(path, bytes);
 }
 
-/// The image of `Target` whose pixels are those of a one- or three-channel matrix of `Pixel`.
-template <class Target, class Pixel, class Convert>
-Image<Target> to_image(const cv::Mat& matrix, Convert convert) {
-  Image<Target> image(matrix.cols, matrix.rows);
+/// The image of `SurfaceMap` whose pixels are those of a one- or three-channel matrix of `Pixel`.
+template <class SurfaceMap, class Pixel, class Convert>
+Image<SurfaceMap> to_image(const cv::Mat& matrix, Convert convert) {
+  Image<SurfaceMap> image(matrix.cols, matrix.rows);
   for (int v = 0; v < matrix.rows; ++v) {
     const auto* row = matrix.ptr<Pixel>(v);
     for (int u = 0; u < matrix.cols; ++u) image(u, v) = convert(row[u]);

@@ -1,4 +1,4 @@
-#include "framework/registration/align_automatic.h"
+#include "framework/pose/align_automatic.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "framework/core/error.h"
-#include "framework/registration/align_features.h"
-#include "framework/registration/align_icp.h"
-#include "framework/registration/alignment.h"
+#include "framework/pose/align_features.h"
+#include "framework/pose/align_icp.h"
+#include "framework/pose/alignment.h"
 
 namespace pliant {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/registration/align_features.h"
+#include "framework/pose/align_features.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "framework/core/registry.h"
-#include "framework/registration/alignment.h"
+#include "framework/pose/alignment.h"
 
 namespace pliant {
 

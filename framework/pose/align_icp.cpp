@@ -1,4 +1,4 @@
-#include "framework/registration/align_icp.h"
+#include "framework/pose/align_icp.h"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "framework/core/registry.h"
-#include "framework/registration/alignment.h"
-#include "framework/registration/rigid_icp.h"
+#include "framework/pose/alignment.h"
+#include "framework/pose/rigid_icp.h"
 
 namespace pliant {
 

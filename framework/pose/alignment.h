@@ -8,7 +8,7 @@
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
 #include "framework/geometry/point_set.h"
-#include "framework/registration/target.h"
+#include "framework/geometry/surface_map.h"
 
 namespace pliant {
 
@@ -34,7 +34,7 @@ struct AlignmentInput {
   Device& device;
   const PointSet& source;           ///< the source's map
   const Array<int>& source_pixels;  ///< row-major offsets of the pixels that have a point of the source
-  const Target& target;
+  const SurfaceMap& target;
   std::uint64_t seed = 0;
   /// Whether an energy will use AlignmentResult::features, where the method finds any.
   bool wants_features = false;

@@ -1,11 +1,11 @@
-#include "framework/registration/alignments.h"
+#include "framework/pose/alignments.h"
 
 #include <memory>
 
-#include "framework/registration/align_automatic.h"
-#include "framework/registration/align_features.h"
-#include "framework/registration/align_icp.h"
-#include "framework/registration/alignment.h"
+#include "framework/pose/align_automatic.h"
+#include "framework/pose/align_features.h"
+#include "framework/pose/align_icp.h"
+#include "framework/pose/alignment.h"
 
 namespace pliant {
 namespace {

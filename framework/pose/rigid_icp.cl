@@ -1,5 +1,5 @@
 // Rigid ICP [thesis 3.3]: projective matches, point to plane [Eq. 3.2], several poses side by side. Compiled
-// behind lanes.cl and point_map.cl.
+// behind lanes.cl and surface_map.cl.
 //
 // Samples lie coordinate by coordinate (x y z of the point, then of its normal), `padded` to whole vectors; a
 // sample without a point has z = 0. A pose is 16 numbers: the rows of R, where the pivot goes, and what

@@ -1,4 +1,4 @@
-#include "framework/registration/rigid_icp.h"
+#include "framework/pose/rigid_icp.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <optional>
 
+#include "framework/geometry/surface_map.h"
+#include "framework/pose/rigid_equation.h"
+#include "framework/pose/rigid_equation.h.embed.h"
+#include "framework/pose/rigid_icp.cl.embed.h"
 #include "framework/problem/equation_source.h"
-#include "framework/registration/projection.h"
-#include "framework/registration/rigid_equation.h"
-#include "framework/registration/rigid_equation.h.embed.h"
-#include "framework/registration/rigid_icp.cl.embed.h"
 
 namespace pliant {
 namespace {
@@ -46,8 +46,8 @@ void make_room(Array<float>& array, std::size_t size) {
 
 cl::Kernel icp_kernel(Device& device, const std::string& name) {
   const auto source_over = [](const std::string& real) {
-    return with_point_map(as_opencl(embedded::framework_registration_rigid_equation_h, real) +
-                          std::string(embedded::framework_registration_rigid_icp_cl));
+    return with_surface_map(as_opencl(embedded::framework_pose_rigid_equation_h, real) +
+                            std::string(embedded::framework_pose_rigid_icp_cl));
   };
   static const std::string scalar = source_over("float");
   static const std::string vector = source_over("float16");

@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "framework/registration/projection.h"
+#include "framework/registration/matching.h"
 #include "framework/registration/projective.h"
 
 namespace pliant {
@@ -28,7 +28,7 @@ Eigen::Vector3f mean_normal(const Eigen::Vector3f& a, const Eigen::Vector3f& b) 
 }  // namespace
 
 bool any_in_force(Device& device, const Constraints& constraints) {
-  auto kernel = projection_kernel(device, "find_in_force");
+  auto kernel = matching_kernel(device, "find_in_force");
   Array<int> found(1);
   device.run("match", kernel, 1, 1, static_cast<cl_int>(constraints.size()),
              constraints.confidence.device(device), found.write_device(device));
@@ -36,7 +36,7 @@ bool any_in_force(Device& device, const Constraints& constraints) {
 }
 
 void weigh(Device& device, const Array<float>& weights, Constraints& constraints) {
-  auto kernel = projection_kernel(device, "weigh");
+  auto kernel = matching_kernel(device, "weigh");
   device.run("match", kernel, constraints.size(), 64, static_cast<cl_int>(constraints.size()),
              weights.device(device), constraints.confidence.write_device(device));
 }
@@ -48,8 +48,8 @@ ProjectiveCorrespondence::ProjectiveCorrespondence(const ProjectiveOptions& opti
       least_facing_(static_cast<float>(std::cos(options.max_view_angle))) {}
 
 void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, const Array<int>& selected,
-                                     const Target& target, Constraints& constraints) const {
-  auto kernel = projection_kernel(device, "match");
+                                     const SurfaceMap& target, Constraints& constraints) const {
+  auto kernel = matching_kernel(device, "match");
   const auto width = static_cast<std::size_t>(device.width());
   device.run("match", kernel, (selected.size() + width - 1) / width, 4, static_cast<cl_int>(selected.size()),
              selected.device(device), constraints.points.device(device), moved.points.device(device),
@@ -60,9 +60,9 @@ void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, cons
              constraints.confidence.write_device(device));
 }
 
-void ProjectiveCorrespondence::measure(Device& device, const PointSet& moved, const Target& target,
+void ProjectiveCorrespondence::measure(Device& device, const PointSet& moved, const SurfaceMap& target,
                                        Array<float>& distances) const {
-  auto kernel = projection_kernel(device, "measure");
+  auto kernel = matching_kernel(device, "measure");
   const auto width = static_cast<std::size_t>(device.width());
   device.run("residual", kernel, (distances.size() + width - 1) / width, 16,
              static_cast<cl_int>(distances.size()), moved.points.device(device), moved.normals.device(device),
@@ -71,20 +71,20 @@ void ProjectiveCorrespondence::measure(Device& device, const PointSet& moved, co
              distances.write_device(device));
 }
 
-void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const Target& target,
+void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const SurfaceMap& target,
                                                  std::vector<float>& distances) const {
   distances.assign(moved.points.size() / 3, -1);
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const Eigen::Vector3f point = at(moved.points, i);
     const Eigen::Vector3f normal = at(moved.normals, i);
-    const auto pixel = target_pixel_reference(target, point);
+    const auto pixel = seen_pixel_reference(target, point);
     if (pixel && is_facing(point, normal) && accepts(target, *pixel, point, normal))
       distances[i] = (point - at(target.points, *pixel)).norm();
   }
 }
 
-bool ProjectiveCorrespondence::accepts(const Target& target, std::size_t pixel, const Eigen::Vector3f& point,
-                                       const Eigen::Vector3f& normal) const {
+bool ProjectiveCorrespondence::accepts(const SurfaceMap& target, std::size_t pixel,
+                                       const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
   const Eigen::Vector3f target_normal = finite_or_none(target.normals, pixel);
   const bool has_normals = normal.squaredNorm() > 0 && target_normal.squaredNorm() > 0;
   return (point - at(target.points, pixel)).norm() <= max_distance_ &&
@@ -95,7 +95,7 @@ bool ProjectiveCorrespondence::is_facing(const Eigen::Vector3f& point, const Eig
   return !(normal.squaredNorm() > 0) || -normal.dot(point) >= least_facing_ * point.norm();
 }
 
-bool ProjectiveCorrespondence::is_rim(const Target& target, std::size_t pixel) const {
+bool ProjectiveCorrespondence::is_rim(const SurfaceMap& target, std::size_t pixel) const {
   const int width = target.camera.width;
   const int u = static_cast<int>(pixel) % width;
   const int v = static_cast<int>(pixel) / width;
@@ -113,13 +113,13 @@ bool ProjectiveCorrespondence::is_rim(const Target& target, std::size_t pixel) c
   return false;
 }
 
-std::size_t ProjectiveCorrespondence::walk(const Target& target, const Eigen::Vector3f& point,
+std::size_t ProjectiveCorrespondence::walk(const SurfaceMap& target, const Eigen::Vector3f& point,
                                            std::size_t pixel) const {
   const auto distance = [&](std::size_t to) { return (point - at(target.points, to)).norm(); };
   for (int step = 0; step < options_.steps; ++step) {
     const Eigen::Vector3f n = finite_or_none(target.normals, pixel);
     const Eigen::Vector3f foot = point - (point - at(target.points, pixel)).dot(n) * n;
-    const Pixel next = target_pixel_reference(target, foot);
+    const Pixel next = seen_pixel_reference(target, foot);
     if (next == pixel) return pixel;
     if (!next || !(distance(*next) < distance(pixel))) break;
     pixel = *next;
@@ -139,7 +139,7 @@ std::size_t ProjectiveCorrespondence::walk(const Target& target, const Eigen::Ve
   return pixel;
 }
 
-ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::search(const Target& target,
+ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::search(const SurfaceMap& target,
                                                                  const Eigen::Vector3f& point,
                                                                  const Eigen::Vector3f& normal,
                                                                  int radius) const {
@@ -158,11 +158,11 @@ ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::search(const Target& t
   return best;
 }
 
-ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::match_point(const Target& target,
+ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::match_point(const SurfaceMap& target,
                                                                       const Eigen::Vector3f& point,
                                                                       const Eigen::Vector3f& normal) const {
   if (!is_facing(point, normal)) return std::nullopt;
-  Pixel pixel = target_pixel_reference(target, point);
+  Pixel pixel = seen_pixel_reference(target, point);
   if (!pixel && options_.steps > 0) pixel = search(target, point, normal, 1);
   if (pixel) pixel = walk(target, point, *pixel);
   if (!pixel || !accepts(target, *pixel, point, normal))
@@ -172,7 +172,7 @@ ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::match_point(const Targ
 }
 
 void ProjectiveCorrespondence::match_reference(const PointSet& moved, const Array<int>& selected,
-                                               const Target& target, Constraints& constraints) const {
+                                               const SurfaceMap& target, Constraints& constraints) const {
   auto& data = constraints.data.write_host();
   auto& confidence = constraints.confidence.write_host();
   std::fill(data.begin(), data.end(), 0.0F);

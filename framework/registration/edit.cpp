@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "framework/core/error.h"
+#include "framework/core/stopwatch.h"
 #include "framework/deformation/warp.h"
 #include "framework/registration/registration.h"
-#include "framework/registration/stopwatch.h"
 
 namespace pliant {
 namespace {
@@ -171,7 +171,7 @@ EditResult::HandleFit EditResult::all_handles() const {
 
 Surface source_surface(const FramePair& pair) {
   check_source(pair);
-  Surface surface = make_surface(make_surface_map(pair.source, pair.camera), pair.source.color);
+  Surface surface = make_surface(make_surface_image(pair.source, pair.camera), pair.source.color);
   if (surface.points.empty()) throw DataError(pair.name + ": the source has no point");
   return surface;
 }

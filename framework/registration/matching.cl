@@ -1,5 +1,5 @@
 // Matching with a target [thesis 4.2], WIDTH points a work-item: with the target point at the pixel that a
-// point projects to, or one near it. Compiled behind lanes.cl and point_map.cl.
+// point projects to, or one near it. Compiled behind lanes.cl and surface_map.cl.
 
 // Between neighbouring pixels: a surface seen under more than 84 degrees, or two of them.
 #define STEEPEST_SLOPE 10.0f

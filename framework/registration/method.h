@@ -6,9 +6,9 @@
 #include "framework/core/registry.h"
 #include "framework/deformation/graph_builder.h"
 #include "framework/deformation/node_transform.h"
-#include "framework/geometry/depth_filter.h"
+#include "framework/imaging/depth_filter.h"
+#include "framework/pose/alignment.h"
 #include "framework/problem/solver.h"
-#include "framework/registration/alignment.h"
 #include "framework/registration/correspondence.h"
 #include "framework/registration/sampler.h"
 

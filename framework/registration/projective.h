@@ -30,28 +30,30 @@ class ProjectiveCorrespondence : public Correspondence {
  public:
   explicit ProjectiveCorrespondence(const ProjectiveOptions& options);
 
-  void match(Device& device, const PointSet& moved, const Array<int>& selected, const Target& target,
+  void match(Device& device, const PointSet& moved, const Array<int>& selected, const SurfaceMap& target,
              Constraints& constraints) const override;
-  void measure(Device& device, const PointSet& moved, const Target& target,
+  void measure(Device& device, const PointSet& moved, const SurfaceMap& target,
                Array<float>& distances) const override;
   bool measures_matches() const override {
     return options_.search_radius == 0 && options_.steps == 0 && options_.rim == 0;
   }
 
   /// Plain C++ references.
-  void match_reference(const PointSet& moved, const Array<int>& selected, const Target& target,
+  void match_reference(const PointSet& moved, const Array<int>& selected, const SurfaceMap& target,
                        Constraints& constraints) const;
-  void measure_reference(const PointSet& moved, const Target& target, std::vector<float>& distances) const;
+  void measure_reference(const PointSet& moved, const SurfaceMap& target,
+                         std::vector<float>& distances) const;
 
  private:
   using Pixel = std::optional<std::size_t>;
-  Pixel match_point(const Target& target, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
-  std::size_t walk(const Target& target, const Eigen::Vector3f& point, std::size_t pixel) const;
-  Pixel search(const Target& target, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+  Pixel match_point(const SurfaceMap& target, const Eigen::Vector3f& point,
+                    const Eigen::Vector3f& normal) const;
+  std::size_t walk(const SurfaceMap& target, const Eigen::Vector3f& point, std::size_t pixel) const;
+  Pixel search(const SurfaceMap& target, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                int radius) const;
   bool is_facing(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
-  bool is_rim(const Target& target, std::size_t pixel) const;
-  bool accepts(const Target& target, std::size_t pixel, const Eigen::Vector3f& point,
+  bool is_rim(const SurfaceMap& target, std::size_t pixel) const;
+  bool accepts(const SurfaceMap& target, std::size_t pixel, const Eigen::Vector3f& point,
                const Eigen::Vector3f& normal) const;
 
   ProjectiveOptions options_;

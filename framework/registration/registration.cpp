@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/core/stopwatch.h"
 #include "framework/deformation/warm_start.h"
 #include "framework/registration/residual.h"
 #include "framework/registration/scene.h"
-#include "framework/registration/stopwatch.h"
 
 namespace pliant {
 namespace {
@@ -445,9 +445,9 @@ class Registration {
   bool has_pulled_ = false;  ///< whether a constraint of the present model was in force
   PointSet sampled_;         ///< the constrained points at rest, where only they are followed
   Model model_;
-  PointSet moved_;       ///< those that are followed
+  PointSet moved_;                    ///< those that are followed
   std::optional<std::size_t> shown_;  ///< the iteration that `moved_` was measured after, if it was
-  PointSet registered_;  ///< all, at the end
+  PointSet registered_;               ///< all, at the end
   ResidualMeter meter_;
   std::unique_ptr<BoundSolver> solver_;
   std::vector<RegistrationResult::Step> history_;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "framework/registration/projection.h"
+#include "framework/registration/matching.h"
 
 namespace pliant {
 namespace {
@@ -13,7 +13,7 @@ constexpr std::size_t chunk = 256;  // CHUNK in projection.cl
 
 }  // namespace
 
-ResidualMeter::ResidualMeter(Device& device, const Correspondence& correspondence, const Target& target,
+ResidualMeter::ResidualMeter(Device& device, const Correspondence& correspondence, const SurfaceMap& target,
                              std::size_t point_count, double cut)
     : device_(&device),
       correspondence_(&correspondence),
@@ -25,8 +25,8 @@ ResidualMeter::ResidualMeter(Device& device, const Correspondence& correspondenc
       total_(device.allocate(sizeof(cl_float8))) {}
 
 Residual ResidualMeter::measure(const PointSet& moved) {
-  auto sum = projection_kernel(*device_, "sum_residuals");
-  auto total = projection_kernel(*device_, "total_residual");
+  auto sum = matching_kernel(*device_, "sum_residuals");
+  auto total = matching_kernel(*device_, "total_residual");
   correspondence_->measure(*device_, moved, *target_, per_point_);
   device_->run("residual", sum, chunks_, 1, static_cast<cl_int>(per_point_.size()),
                moved.points.device(*device_), pinhole(target_->camera), image_size(target_->camera),
@@ -41,7 +41,7 @@ Residual ResidualMeter::measure(const PointSet& moved) {
           static_cast<int>(record[3]), std::sqrt(mean(record[4], per_point_.size()))};
 }
 
-Residual sum_residuals_reference(const Target& target, const Array<float>& moved,
+Residual sum_residuals_reference(const SurfaceMap& target, const Array<float>& moved,
                                  const std::vector<float>& per_point, double cut) {
   Residual residual;
   double sum = 0;
@@ -55,7 +55,7 @@ Residual sum_residuals_reference(const Target& target, const Array<float>& moved
       sum += per_point[i];
       ++residual.matched;
     }
-    if (per_point[i] >= 0 || target_pixel_reference(target, point)) ++residual.landed;
+    if (per_point[i] >= 0 || seen_pixel_reference(target, point)) ++residual.landed;
   }
   if (residual.matched > 0) residual.mean = sum / residual.matched;
   if (!per_point.empty()) residual.robust = std::sqrt(robust / static_cast<double>(per_point.size()));

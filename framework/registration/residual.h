@@ -19,7 +19,7 @@ struct Residual {
 class ResidualMeter {
  public:
   /// `cut`: mm, of Residual::robust.
-  ResidualMeter(Device& device, const Correspondence& correspondence, const Target& target,
+  ResidualMeter(Device& device, const Correspondence& correspondence, const SurfaceMap& target,
                 std::size_t point_count, double cut);
   Residual measure(const PointSet& moved);
   /// What was measured last, point by point, in mm; -1 where a point has no match that is accepted.
@@ -28,7 +28,7 @@ class ResidualMeter {
  private:
   Device* device_;
   const Correspondence* correspondence_;
-  const Target* target_;
+  const SurfaceMap* target_;
   std::size_t chunks_;
   float cut_;
   Array<float> per_point_;
@@ -37,7 +37,7 @@ class ResidualMeter {
 };
 
 /// Plain C++ reference of ResidualMeter::measure from what it has measured `per_point`.
-Residual sum_residuals_reference(const Target& target, const Array<float>& moved,
+Residual sum_residuals_reference(const SurfaceMap& target, const Array<float>& moved,
                                  const std::vector<float>& per_point, double cut);
 
 }  // namespace pliant

@@ -7,7 +7,7 @@
 #include "framework/deformation/node_selection.h"
 #include "framework/device/device.h"
 #include "framework/geometry/surface.h"
-#include "framework/registration/alignment.h"
+#include "framework/pose/alignment.h"
 
 namespace pliant {
 

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "framework/core/error.h"
-#include "framework/geometry/depth_map.h"
-#include "framework/registration/stopwatch.h"
+#include "framework/core/stopwatch.h"
+#include "framework/imaging/depth_map.h"
 
 namespace pliant {
 namespace {
@@ -53,7 +53,7 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   const DepthMap depth = make_depth_map(pair.source, times);
   const auto filtered = method.filter->filter(device, depth, pair.camera);
   const PointSet map = make_surface_map(device, filtered ? *filtered : depth, pair.camera);
-  Target target(pair.camera, make_target_map(pair, method, device, times));
+  SurfaceMap target(pair.camera, make_target_map(pair, method, device, times));
 
   const Array<int> pixels(timed(times, "surface", [&] { return pixels_with_depth(depth); }));
   if (pixels.empty()) throw DataError(pair.name + ": the source has no point");

@@ -7,9 +7,9 @@
 #include "framework/geometry/frame.h"
 #include "framework/geometry/point_set.h"
 #include "framework/geometry/surface.h"
-#include "framework/registration/alignment.h"
+#include "framework/geometry/surface_map.h"
+#include "framework/pose/alignment.h"
 #include "framework/registration/method.h"
-#include "framework/registration/target.h"
 
 namespace pliant {
 
@@ -17,10 +17,10 @@ namespace pliant {
 struct Scene {
   const FramePair& pair;
   AlignmentResult alignment;
-  Target target;    ///< filtered
-  Surface source;   ///< as given; its normals are those of the filtered surface
-  Surface aligned;  ///< what is registered: the source, filtered, after the initial alignment
-  PointSet rest;    ///< `aligned` on the device
+  SurfaceMap target;  ///< filtered
+  Surface source;     ///< as given; its normals are those of the filtered surface
+  Surface aligned;    ///< what is registered: the source, filtered, after the initial alignment
+  PointSet rest;      ///< `aligned` on the device
   /// mm; the points of the source as given, after the initial alignment; empty where no filter sets them
   /// apart from `aligned`.
   std::vector<Eigen::Vector3f> unfiltered;

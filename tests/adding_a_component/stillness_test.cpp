@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "energies/energies.h"
-#include "framework/core/config.h"
+#include "framework/config/config.h"
 #include "framework/problem/solver.h"
 #include "solvers/solvers.h"
 #include "tests/problem/components.h"

@@ -3,9 +3,9 @@
 
 #include <gmock/gmock.h>
 
-#include "framework/core/config.h"
+#include "framework/config/config.h"
 #include "framework/core/error.h"
-#include "tests/core/toy_experiment.h"
+#include "tests/config/toy_experiment.h"
 
 namespace pliant::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/core/config.h"
+#include "framework/config/config.h"
 
 #include <cmath>
 #include <filesystem>
@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "framework/core/error.h"
-#include "tests/core/toy_experiment.h"
+#include "tests/config/toy_experiment.h"
 
 namespace pliant::test {
 namespace {

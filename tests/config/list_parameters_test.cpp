@@ -1,9 +1,9 @@
 // Lists of numbers, how many entries a map must have, and where a section stands.
 #include <gmock/gmock.h>
 
+#include "framework/config/schema.h"
 #include "framework/core/error.h"
-#include "framework/core/schema.h"
-#include "tests/core/toy_experiment.h"
+#include "tests/config/toy_experiment.h"
 
 namespace pliant::test {
 namespace {

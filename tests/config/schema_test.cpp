@@ -1,9 +1,9 @@
-#include "framework/core/schema.h"
+#include "framework/config/schema.h"
 
 #include <gmock/gmock.h>
 
 #include "framework/core/error.h"
-#include "tests/core/toy_experiment.h"
+#include "tests/config/toy_experiment.h"
 
 namespace pliant::test {
 namespace {

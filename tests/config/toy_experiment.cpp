@@ -1,4 +1,4 @@
-#include "tests/core/toy_experiment.h"
+#include "tests/config/toy_experiment.h"
 
 #include <unistd.h>
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/core/config.h"
+#include "framework/config/config.h"
 #include "framework/core/parameters.h"
 #include "framework/core/registry.h"
 

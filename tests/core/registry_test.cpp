@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/core/toy_experiment.h"
+#include "tests/config/toy_experiment.h"
 
 namespace pliant::test {
 namespace {

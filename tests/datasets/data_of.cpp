@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "experiments/datasets/datasets.h"
-#include "framework/core/config.h"
+#include "framework/config/config.h"
 #include "framework/core/error.h"
 #include "framework/io/file.h"
 

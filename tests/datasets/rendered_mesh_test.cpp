@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "framework/registration/metrics.h"
+#include "framework/evaluation/metrics.h"
 #include "tests/datasets/data_of.h"
 #include "tests/io/glb_file.h"
 #include "tests/io/test_files.h"
@@ -176,9 +176,9 @@ TEST_P(RenderedFace, StartsWhereItsPeersStarted) {
   const FramePair pair = data_of("{type: rendered_mesh, noise: 0.375, mesh: " + mesh +
                                  ", target: " + GetParam().expression + "}")
                              ->load(1);
-  const Surface source = make_surface(make_surface_map(pair.source, pair.camera), pair.source.color);
+  const Surface source = make_surface(make_surface_image(pair.source, pair.camera), pair.source.color);
   EXPECT_NEAR(static_cast<double>(source.size()), 30281, 100);
-  const Evaluation evaluation(pair, source, make_surface_map(pair.target, pair.camera));
+  const Evaluation evaluation(pair, source, make_surface_image(pair.target, pair.camera));
   const Metrics start = evaluation.measure(source.points);
   ASSERT_TRUE(start.truth);
   EXPECT_NEAR(start.truth->epe_moving_mean, GetParam().moving_mean, 0.02);

@@ -1,4 +1,4 @@
-#include "framework/registration/metrics.h"
+#include "framework/evaluation/metrics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 const Camera camera{100, 100, 4, 3, 9, 7};
 
-SurfaceMap empty_map() {
+SurfaceImage empty_map() {
   return {Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f::Zero()),
           Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f::Zero())};
 }
@@ -29,8 +29,8 @@ Eigen::Vector3f at_pixel(double u, double v, double depth) {
 }
 
 /// Points at 1 m but for a hole at the pixel (2, 2).
-SurfaceMap wall_with_hole() {
-  SurfaceMap map = empty_map();
+SurfaceImage wall_with_hole() {
+  SurfaceImage map = empty_map();
   for (int v = 0; v < 7; ++v) {
     for (int u = 0; u < 9; ++u) {
       if (u != 2 || v != 2) map.points(u, v) = at_pixel(u, v, 1000);
@@ -100,7 +100,7 @@ TEST(Metrics, MeanAndPopulationDeviation) {
 TEST(Metrics, NearestAgreesWithBruteForce) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> side(-100, 100);
-  SurfaceMap target = empty_map();
+  SurfaceImage target = empty_map();
   for (std::size_t i = 0; i < target.points.size(); ++i) {
     target.points.data()[i] = {side(random), side(random), 500 + side(random)};
   }
@@ -192,7 +192,7 @@ TEST(EndPointError, PercentileIsTheErrorThat95PercentDoNotExceed) {
 
 // On the left something stands 200 mm before the wall; below, the target is cut off.
 TEST(EndPointError, TellsWhatTheTargetShowsFromWhatItHides) {
-  SurfaceMap target = wall_with_hole();
+  SurfaceImage target = wall_with_hole();
   for (int v = 0; v < 7; ++v) {
     for (int u = 0; u < 9; ++u) {
       if (v >= 4)

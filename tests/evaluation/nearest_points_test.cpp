@@ -1,4 +1,4 @@
-#include "framework/registration/nearest_points.h"
+#include "framework/evaluation/nearest_points.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 
 #include "experiments/runner/compare.h"
 #include "experiments/runner/runner.h"
+#include "framework/config/schema.h"
 #include "framework/core/error.h"
-#include "framework/core/schema.h"
 #include "tests/experiments/experiment_files.h"
 
 namespace pliant::testing {

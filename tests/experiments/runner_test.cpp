@@ -7,7 +7,7 @@
 #include <set>
 
 #include "experiments/runner/result_json.h"
-#include "framework/geometry/depth_filter.h"
+#include "framework/imaging/depth_filter.h"
 #include "tests/experiments/experiment_files.h"
 
 namespace pliant::testing {

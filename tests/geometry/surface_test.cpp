@@ -36,16 +36,16 @@ RgbdFrame render_plane(const Eigen::Vector3d& normal) {
   return render([&](double a, double b) { return 800 * normal.z() / normal.dot(Eigen::Vector3d(a, b, 1)); });
 }
 
-TEST(SurfaceMap, PointsAreTheDepthAlongTheRays) {
-  const SurfaceMap map = make_surface_map(render([](double, double) { return 700; }), kCamera);
+TEST(SurfaceImage, PointsAreTheDepthAlongTheRays) {
+  const SurfaceImage map = make_surface_image(render([](double, double) { return 700; }), kCamera);
   EXPECT_TRUE(map.points(100, 20).isApprox(kCamera.unproject(100, 20, 700).cast<float>(), 1e-6f));
 }
 
-TEST(SurfaceMap, NormalsOfAPlaneAreExactAndFaceTheCamera) {
+TEST(SurfaceImage, NormalsOfAPlaneAreExactAndFaceTheCamera) {
   for (const Eigen::Vector3d& direction : {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(0.5, 0.3, -1),
                                            Eigen::Vector3d(-1, 0, -1), Eigen::Vector3d(0, 1.5, -1)}) {
     const Eigen::Vector3d normal = direction.normalized();
-    const SurfaceMap map = make_surface_map(render_plane(normal), kCamera);
+    const SurfaceImage map = make_surface_image(render_plane(normal), kCamera);
     double worst = 0;
     for (const auto& found : map.normals.pixels()) worst = std::max(worst, degrees_between(found, normal));
     EXPECT_LT(worst, 0.02) << "limited by the depth's 24 bits";
@@ -53,7 +53,7 @@ TEST(SurfaceMap, NormalsOfAPlaneAreExactAndFaceTheCamera) {
   }
 }
 
-TEST(SurfaceMap, NormalsOfASphereAreWithinADegree) {
+TEST(SurfaceImage, NormalsOfASphereAreWithinADegree) {
   const Eigen::Vector3d centre(0, 0, 800);
   const double radius = 60;
   const RgbdFrame frame = render([&](double a, double b) {
@@ -62,7 +62,7 @@ TEST(SurfaceMap, NormalsOfASphereAreWithinADegree) {
     const double inside = along * along - (centre.squaredNorm() - radius * radius) / ray.squaredNorm();
     return inside > 0 ? along - std::sqrt(inside) : 0;
   });
-  const Surface surface = make_surface(make_surface_map(frame, kCamera), {});
+  const Surface surface = make_surface(make_surface_image(frame, kCamera), {});
   ASSERT_GT(surface.size(), 4000u);
   for (std::size_t i = 0; i < surface.size(); ++i) {
     const Eigen::Vector3d normal = (surface.points[i].cast<double>() - centre).normalized();
@@ -71,24 +71,24 @@ TEST(SurfaceMap, NormalsOfASphereAreWithinADegree) {
   }
 }
 
-TEST(SurfaceMap, DepthStepsAreNotMixed) {
+TEST(SurfaceImage, DepthStepsAreNotMixed) {
   const RgbdFrame frame = render([](double a, double) { return a < 0 ? 800 : 850; });
-  const SurfaceMap map = make_surface_map(frame, kCamera);
+  const SurfaceImage map = make_surface_image(frame, kCamera);
   for (int u = 0; u < kCamera.width; ++u) {
     EXPECT_LT(degrees_between(map.normals(u, 60), {0, 0, -1}), 0.01) << u;
   }
   // The same step counts as one surface when it is allowed to.
-  const SurfaceMap mixed = make_surface_map(frame, kCamera, 2, 60);
+  const SurfaceImage mixed = make_surface_image(frame, kCamera, 2, 60);
   EXPECT_GT(degrees_between(mixed.normals(79, 60), {0, 0, -1}), 30);
 }
 
-TEST(SurfaceMap, InvalidDepthIsNoPoint) {
+TEST(SurfaceImage, InvalidDepthIsNoPoint) {
   RgbdFrame frame = render([](double, double) { return 800; });
   frame.depth(10, 10) = std::nanf("");
   frame.depth(11, 10) = std::numeric_limits<float>::infinity();
   frame.depth(12, 10) = -5;
   frame.depth(13, 10) = 0;
-  const SurfaceMap map = make_surface_map(frame, kCamera);
+  const SurfaceImage map = make_surface_image(frame, kCamera);
   for (int u = 10; u <= 13; ++u) {
     EXPECT_EQ(map.points(u, 10), Eigen::Vector3f(0, 0, 0));
     EXPECT_EQ(map.normals(u, 10), Eigen::Vector3f(0, 0, 0));
@@ -97,47 +97,47 @@ TEST(SurfaceMap, InvalidDepthIsNoPoint) {
   EXPECT_EQ(make_surface(map, {}).size(), frame.depth.size() - 4);
 }
 
-TEST(SurfaceMap, OnlyTheMaskCounts) {
+TEST(SurfaceImage, OnlyTheMaskCounts) {
   RgbdFrame frame = render([](double, double b) { return b < 0 ? 800 : 810; });
   frame.mask = MaskImage(kCamera.width, kCamera.height);
   for (int v = 0; v < 60; ++v) {
     for (int u = 20; u < 40; ++u) frame.mask(u, v) = 255;
   }
-  const SurfaceMap map = make_surface_map(frame, kCamera);
+  const SurfaceImage map = make_surface_image(frame, kCamera);
   EXPECT_EQ(map.points(41, 30), Eigen::Vector3f(0, 0, 0));
   EXPECT_EQ(make_surface(map, {}).size(), 60u * 20u);
   EXPECT_LT(degrees_between(map.normals(30, 59), {0, 0, -1}), 0.01) << "depth outside the mask took part";
 }
 
-TEST(SurfaceMap, TooFewOrCollinearNeighboursGiveNoNormal) {
+TEST(SurfaceImage, TooFewOrCollinearNeighboursGiveNoNormal) {
   RgbdFrame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
   for (const auto& [u, v] : {std::pair(50, 50), {51, 50}, {50, 51}}) frame.depth(u, v) = 800;
   for (int u = 90; u < 100; ++u) frame.depth(u, 50) = 800;
-  SurfaceMap map = make_surface_map(frame, kCamera);
+  SurfaceImage map = make_surface_image(frame, kCamera);
   frame.depth(59, 59) = 800;
-  map = make_surface_map(frame, kCamera);
+  map = make_surface_image(frame, kCamera);
   EXPECT_EQ(map.normals(50, 50), Eigen::Vector3f(0, 0, 0)) << "two neighbours within 8 pixels";
   EXPECT_EQ(map.normals(95, 50), Eigen::Vector3f(0, 0, 0)) << "a line";
   EXPECT_GT(map.points(95, 50).z(), 0);
   frame.depth(51, 51) = 800;
-  map = make_surface_map(frame, kCamera);
+  map = make_surface_image(frame, kCamera);
   EXPECT_LT(degrees_between(map.normals(50, 50), {0, 0, -1}), 0.01) << "three neighbours";
 }
 
-TEST(SurfaceMap, SparseDepthHasNormalsFromFurtherAway) {
+TEST(SurfaceImage, SparseDepthHasNormalsFromFurtherAway) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.5, 0.3, -1).normalized();
   for (const int step : {2, 3, 4, 6, 8}) {
     RgbdFrame frame = render_plane(normal);
     for (int v = 0; v < kCamera.height; ++v)
       for (int u = 0; u < kCamera.width; ++u)
         if (u % step != 0 || v % step != 0) frame.depth(u, v) = 0;
-    const Surface surface = make_surface(make_surface_map(frame, kCamera), {});
+    const Surface surface = make_surface(make_surface_image(frame, kCamera), {});
     for (const auto& found : surface.normals) ASSERT_LT(degrees_between(found, normal), 0.02) << step;
   }
 }
 
-TEST(SurfaceMap, EmptyInputGivesNothing) {
-  const SurfaceMap map = make_surface_map({}, {});
+TEST(SurfaceImage, EmptyInputGivesNothing) {
+  const SurfaceImage map = make_surface_image({}, {});
   EXPECT_TRUE(map.points.empty());
   EXPECT_TRUE(map.normals.empty());
   EXPECT_EQ(make_surface(map, {}).size(), 0u);
@@ -150,7 +150,7 @@ TEST(Surface, ListsPointsInRowMajorOrderWithTheirColors) {
     frame.depth(pixels[i].x(), pixels[i].y()) = 500;
     frame.color(pixels[i].x(), pixels[i].y()) = {static_cast<std::uint8_t>(i + 1), 0, 9};
   }
-  const SurfaceMap map = make_surface_map(frame, kCamera);
+  const SurfaceImage map = make_surface_image(frame, kCamera);
   const Surface surface = make_surface(map, frame.color);
   ASSERT_EQ(surface.pixels, pixels);
   ASSERT_EQ(surface.colors.size(), pixels.size());
@@ -163,9 +163,9 @@ TEST(Surface, ListsPointsInRowMajorOrderWithTheirColors) {
 
 TEST(Surface, ImagesOfDifferentSizeAreRefused) {
   RgbdFrame frame = render([](double, double) { return 800; });
-  const SurfaceMap map = make_surface_map(frame, kCamera);
+  const SurfaceImage map = make_surface_image(frame, kCamera);
   frame.mask = MaskImage(2, 2, 1);
-  EXPECT_THROW(make_surface_map(frame, kCamera), std::invalid_argument);
+  EXPECT_THROW(make_surface_image(frame, kCamera), std::invalid_argument);
   EXPECT_THROW(make_surface(map, ColorImage(2, 2)), std::invalid_argument);
 }
 

@@ -1,4 +1,4 @@
-#include "framework/geometry/bilateral.h"
+#include "framework/imaging/bilateral.h"
 
 #include <gtest/gtest.h>
 

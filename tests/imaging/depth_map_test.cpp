@@ -1,4 +1,4 @@
-#include "framework/geometry/depth_map.h"
+#include "framework/imaging/depth_map.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ struct Difference {
 Difference compare(const RgbdFrame& frame, int radius = default_normal_radius,
                    float depth_step = default_depth_step) {
   Device device;
-  const SurfaceMap expected = make_surface_map(frame, kCamera, radius, depth_step);
+  const SurfaceImage expected = make_surface_image(frame, kCamera, radius, depth_step);
   const PointSet map = make_surface_map(device, DepthMap(frame), kCamera, radius, depth_step);
   const auto points = unflatten(map.points);
   const auto normals = unflatten(map.normals);

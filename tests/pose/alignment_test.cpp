@@ -7,11 +7,11 @@
 #include <random>
 
 #include "framework/core/error.h"
-#include "framework/geometry/depth_map.h"
-#include "framework/registration/align_automatic.h"
-#include "framework/registration/align_features.h"
-#include "framework/registration/align_icp.h"
-#include "framework/registration/alignments.h"
+#include "framework/imaging/depth_map.h"
+#include "framework/pose/align_automatic.h"
+#include "framework/pose/align_features.h"
+#include "framework/pose/align_icp.h"
+#include "framework/pose/alignments.h"
 
 namespace pliant {
 namespace {
@@ -144,7 +144,7 @@ AlignmentResult align(const Alignment& alignment, const FramePair& pair, std::ui
   static Device device;  // its kernels are built once
   const DepthMap depth(pair.source);
   const PointSet source = make_surface_map(device, depth, pair.camera);
-  const Target target(pair.camera, make_surface_map(device, DepthMap(pair.target), pair.camera));
+  const SurfaceMap target(pair.camera, make_surface_map(device, DepthMap(pair.target), pair.camera));
   return alignment.align(
       {pair, device, source, Array<int>(pixels_with_depth(depth)), target, seed, wants_features});
 }

@@ -1,4 +1,4 @@
-#include "framework/registration/rigid_icp.h"
+#include "framework/pose/rigid_icp.h"
 
 #include <ceres/jet.h>
 #include <ceres/rotation.h>
@@ -10,8 +10,8 @@
 #include <numbers>
 #include <random>
 
-#include "framework/geometry/depth_map.h"
-#include "framework/registration/rigid_equation.h"
+#include "framework/imaging/depth_map.h"
+#include "framework/pose/rigid_equation.h"
 
 // A lumpy ellipsoid, seen by a camera before and after a rigid motion.
 namespace pliant {

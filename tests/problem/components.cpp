@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "framework/core/config.h"
+#include "framework/config/config.h"
 
 namespace pliant::test {
 

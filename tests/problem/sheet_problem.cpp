@@ -36,10 +36,10 @@ Influences influences_of(const Points& points, const Points& nodes, int wanted) 
           Array<float>(std::vector<float>(points.size(), 1))};
 }
 
-using Target = std::function<Eigen::Vector3f(const Eigen::Vector3f&)>;
+using SurfaceMap = std::function<Eigen::Vector3f(const Eigen::Vector3f&)>;
 
 std::shared_ptr<Constraints> constrain(const Sheet& sheet, const DeformationGraph& graph,
-                                       const Points& points, const Target& target) {
+                                       const Points& points, const SurfaceMap& target) {
   std::vector<float> data;
   for (const auto& point : points) {
     const Eigen::Vector3f motion = target(point) - point;

@@ -22,10 +22,10 @@ namespace {
 constexpr Camera camera{50, 50, 20, 15, 41, 31};
 
 /// A wavy wall with holes, some pixels without a normal.
-Target make_target(std::mt19937& random) {
+SurfaceMap make_target(std::mt19937& random) {
   std::uniform_real_distribution<float> draw(0, 1);
-  SurfaceMap map{Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero()),
-                 Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero())};
+  SurfaceImage map{Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero()),
+                   Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero())};
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
       if (draw(random) < 0.15F) continue;
@@ -69,7 +69,7 @@ class Projective : public ::testing::TestWithParam<ProjectiveOptions> {};
 TEST_P(Projective, TheDeviceAgreesWithTheReference) {
   Device device;
   std::mt19937 random(11);
-  const Target target = make_target(random);
+  const SurfaceMap target = make_target(random);
   const PointSet moved = make_moved(random, 900);
   std::vector<int> selected;
   for (int i = 0; i < 900; i += 2) selected.push_back(i);
@@ -121,10 +121,10 @@ INSTANTIATE_TEST_SUITE_P(Options, Projective, ::testing::ValuesIn(kinds_of_optio
 
 TEST(ProjectiveMatch, LooksAroundOnlyWhereTheProjectedPixelIsRejected) {
   Device device;
-  SurfaceMap map{Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero()),
-                 Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero())};
+  SurfaceImage map{Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero()),
+                   Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero())};
   map.points(24, 15) = camera.unproject(24, 15, 400).cast<float>();
-  const Target target(camera, map);
+  const SurfaceMap target(camera, map);
   const Eigen::Vector3f point = camera.unproject(20, 15, 400).cast<float>();  // four pixels, 32 mm away
   const PointSet moved{Array<float>(std::vector<float>(point.data(), point.data() + 3)),
                        Array<float>(std::vector<float>{0, 0, 0})};
@@ -143,9 +143,9 @@ TEST(ProjectiveMatch, LooksAroundOnlyWhereTheProjectedPixelIsRejected) {
 }
 
 /// A plane z = 400 + slope * x as the camera sees it, up to a column.
-Target make_slope(double slope, int columns = camera.width) {
-  SurfaceMap map{Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero()),
-                 Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero())};
+SurfaceMap make_slope(double slope, int columns = camera.width) {
+  SurfaceImage map{Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero()),
+                   Image<Eigen::Vector3f>(camera.width, camera.height, Eigen::Vector3f::Zero())};
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < columns; ++u) {
       map.points(u, v) =
@@ -161,7 +161,7 @@ struct Match {
   Eigen::Vector3f plane;
 };
 
-Match match_one(const ProjectiveOptions& options, const Target& target, const Eigen::Vector3d& point,
+Match match_one(const ProjectiveOptions& options, const SurfaceMap& target, const Eigen::Vector3d& point,
                 const Eigen::Vector3d& normal) {
   Device device;
   const auto array = [](const Eigen::Vector3d& v) {
@@ -181,7 +181,7 @@ Match match_one(const ProjectiveOptions& options, const Target& target, const Ei
 const Eigen::Vector3d towards_camera(0, 0, -1);
 
 TEST(ClosestMatch, WalksToTheFootOfThePoint) {
-  const Target slope = make_slope(1);
+  const SurfaceMap slope = make_slope(1);
   const Eigen::Vector3d point(0, 0, 360);  // its foot is (20, 0, 380); on its own ray the plane is 40 mm away
   ProjectiveOptions options = limits(100, 1.5);
   EXPECT_NEAR(match_one(options, slope, point, towards_camera).pull.norm(), 40, 0.1);
@@ -192,7 +192,7 @@ TEST(ClosestMatch, WalksToTheFootOfThePoint) {
 }
 
 TEST(Match, IsDeniedToAPointThatTurnedAway) {
-  const Target wall = make_slope(0);
+  const SurfaceMap wall = make_slope(0);
   const auto turned = [](double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     return Eigen::Vector3d(std::sin(angle), 0, -std::cos(angle));
@@ -208,13 +208,13 @@ TEST(Match, IsDeniedToAPointThatTurnedAway) {
 TEST(Match, IsDeniedNearWhereTheTargetEndsOrJumps) {
   ProjectiveOptions options = limits(100, 1);
   options.rim = 2;
-  const auto found_at = [&](const Target& target, int u) {
+  const auto found_at = [&](const SurfaceMap& target, int u) {
     return match_one(options, target, camera.unproject(u, 15, 395), towards_camera).is_found;
   };
-  const Target cut_off = make_slope(0, 30);
+  const SurfaceMap cut_off = make_slope(0, 30);
   EXPECT_TRUE(found_at(cut_off, 27));
   EXPECT_FALSE(found_at(cut_off, 28));
-  Target step = make_slope(0);
+  SurfaceMap step = make_slope(0);
   for (int v = 0; v < camera.height; ++v)
     for (int u = 30; u < camera.width; ++u)
       step.points.write_host()[static_cast<std::size_t>(3 * (v * camera.width + u) + 2)] +=
@@ -237,8 +237,8 @@ TEST(Match, GivesPlanesHalfWayBetweenTheNormals) {
 constexpr double cut = 12;  // mm
 
 /// Device and reference measure alike; gives what was measured.
-Residual expect_agreement(Device& device, const ProjectiveCorrespondence& projective, const Target& target,
-                          const PointSet& moved) {
+Residual expect_agreement(Device& device, const ProjectiveCorrespondence& projective,
+                          const SurfaceMap& target, const PointSet& moved) {
   ResidualMeter meter(device, projective, target, moved.points.size() / 3, cut);
   std::vector<float> per_point;
   projective.measure_reference(moved, target, per_point);
@@ -257,7 +257,7 @@ Residual expect_agreement(Device& device, const ProjectiveCorrespondence& projec
 TEST_P(Projective, MeasuresLikeItsReference) {
   Device device;
   std::mt19937 random(5);
-  const Target target = make_target(random);
+  const SurfaceMap target = make_target(random);
   const PointSet moved = make_moved(random, 1111);
   const Residual residual = expect_agreement(device, ProjectiveCorrespondence(GetParam()), target, moved);
   EXPECT_GT(residual.landed, 300);
@@ -269,7 +269,7 @@ TEST_P(Projective, MeasuresLikeItsReference) {
 TEST(ResidualMeter, KnowsNothingWhereTheMatchIsRejected) {
   Device device;
   std::mt19937 random(5);
-  const Target target = make_target(random);
+  const SurfaceMap target = make_target(random);
   const PointSet moved = make_moved(random, 800);
   const ProjectiveCorrespondence projective(limits(30, 0.9));
   std::vector<int> all(800);
@@ -289,7 +289,7 @@ TEST(ResidualMeter, KnowsNothingWhereTheMatchIsRejected) {
 }
 
 /// What is not finite in a target that was made by hand.
-void spoil(Target& target, std::mt19937& random) {
+void spoil(SurfaceMap& target, std::mt19937& random) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   for (auto* vectors : {&target.points, &target.normals})
     for (float& value : vectors->write_host())
@@ -299,7 +299,7 @@ void spoil(Target& target, std::mt19937& random) {
 TEST(ResidualMeter, PointsOfTheTargetThatAreNotFiniteCountAsNone) {
   Device device;
   std::mt19937 random(5);
-  Target target = make_target(random);
+  SurfaceMap target = make_target(random);
   spoil(target, random);
   const Residual measured =
       expect_agreement(device, ProjectiveCorrespondence(limits(1000, 1)), target, make_moved(random, 1111));
@@ -310,7 +310,7 @@ TEST(ResidualMeter, PointsOfTheTargetThatAreNotFiniteCountAsNone) {
 TEST(ProjectiveCorrespondence, TakesNothingFromTheTargetThatIsNotFinite) {
   Device device;
   std::mt19937 random(6);
-  Target target = make_target(random);
+  SurfaceMap target = make_target(random);
   spoil(target, random);
   const PointSet moved = make_moved(random, 500);
   std::vector<int> all(500);
@@ -355,7 +355,7 @@ TEST(Constraints, AreWeighedOnTheDevice) {
 TEST(ResidualMeter, CountsThePointsThatAreLost) {
   Device device;
   std::mt19937 random(5);
-  const Target target = make_target(random);
+  const SurfaceMap target = make_target(random);
   PointSet moved = make_moved(random, 700);
   auto& values = moved.points.write_host();
   values[0] = std::numeric_limits<float>::quiet_NaN();
@@ -367,7 +367,7 @@ TEST(ResidualMeter, CountsThePointsThatAreLost) {
 TEST(ResidualMeter, IsZeroWhereNothingLands) {
   Device device;
   std::mt19937 random(5);
-  const Target target = make_target(random);
+  const SurfaceMap target = make_target(random);
   const ProjectiveCorrespondence projective(limits(1000, 1));
   ResidualMeter meter(device, projective, target, 1, cut);
   const Residual residual =

@@ -8,9 +8,9 @@
 #include <random>
 
 #include "framework/core/error.h"
+#include "framework/evaluation/metrics.h"
 #include "framework/geometry/pixel_index.h"
 #include "framework/registration/edit.h"
-#include "framework/registration/metrics.h"
 #include "framework/registration/registration.h"
 #include "tests/experiments/experiment_files.h"
 
@@ -324,7 +324,7 @@ class SpoiltCorrespondence : public Correspondence {
   explicit SpoiltCorrespondence(std::unique_ptr<Correspondence> correspondence)
       : correspondence_(std::move(correspondence)) {}
 
-  void match(Device& device, const PointSet& moved, const Array<int>& selected, const Target& target,
+  void match(Device& device, const PointSet& moved, const Array<int>& selected, const SurfaceMap& target,
              Constraints& constraints) const override {
     correspondence_->match(device, moved, selected, target, constraints);
     if (++matches_ < 2) return;
@@ -332,7 +332,7 @@ class SpoiltCorrespondence : public Correspondence {
     constraints.confidence.write_host()[0] = 1;
   }
 
-  void measure(Device& device, const PointSet& moved, const Target& target,
+  void measure(Device& device, const PointSet& moved, const SurfaceMap& target,
                Array<float>& distances) const override {
     correspondence_->measure(device, moved, target, distances);
   }
@@ -397,8 +397,8 @@ TEST_F(HardInputTest, DepthThatIsNoneIsAHole) {
     EXPECT_EQ(found.points, expected.points);
     EXPECT_EQ(found.normals, expected.normals);
   }
-  EXPECT_EQ(make_surface_map(spoilt.target, spoilt.camera).points.pixels(),
-            make_surface_map(holes.target, holes.camera).points.pixels());
+  EXPECT_EQ(make_surface_image(spoilt.target, spoilt.camera).points.pixels(),
+            make_surface_image(holes.target, holes.camera).points.pixels());
 }
 
 const std::vector<Sets>& methods() {
@@ -447,7 +447,7 @@ void keep(DepthImage& depth, const std::function<bool(int, int)>& is_kept) {
 
 /// Mean end-point error over that of no motion.
 double share_of_error_left(const FramePair& pair, const RegistrationResult& result) {
-  const Evaluation evaluation(pair, result.source, make_surface_map(pair.target, pair.camera));
+  const Evaluation evaluation(pair, result.source, make_surface_image(pair.target, pair.camera));
   return evaluation.measure(result.points).truth.value().epe_mean /
          evaluation.measure(result.source.points).truth.value().epe_mean;
 }

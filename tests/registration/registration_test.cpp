@@ -7,8 +7,8 @@
 
 #include "framework/core/error.h"
 #include "framework/deformation/warp.h"
+#include "framework/evaluation/metrics.h"
 #include "framework/geometry/pixel_index.h"
-#include "framework/registration/metrics.h"
 #include "tests/experiments/experiment_files.h"
 #include "tests/problem/sheet_problem.h"
 
@@ -44,7 +44,7 @@ class RegistrationTest : public ExperimentFiles {
 
 Metrics measure(const FramePair& pair, const RegistrationResult& result,
                 const std::vector<Eigen::Vector3f>& points) {
-  return Evaluation(pair, result.source, make_surface_map(pair.target, pair.camera)).measure(points);
+  return Evaluation(pair, result.source, make_surface_image(pair.target, pair.camera)).measure(points);
 }
 
 double end_point_error(const FramePair& pair, const RegistrationResult& result) {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "framework/core/error.h"
-#include "framework/geometry/bilateral.h"
+#include "framework/imaging/bilateral.h"
 #include "tests/geometry/made_depth.h"
 
 namespace pliant {
@@ -64,7 +64,7 @@ TEST(Scene, HoldsTheSurfacesOfThePair) {
   StageTimes times;
   const FramePair pair = made_pair();
   const Scene scene = make_scene(pair, method_with(std::make_unique<Unfiltered>()), device, 1, times);
-  const Surface expected = make_surface(make_surface_map(pair.source, kCamera), pair.source.color);
+  const Surface expected = make_surface(make_surface_image(pair.source, kCamera), pair.source.color);
   EXPECT_LT(difference(scene.source.points, expected.points), 1e-3);
   EXPECT_LT(difference(scene.source.normals, expected.normals), 2e-3);
   EXPECT_EQ(scene.source.pixels, expected.pixels);
@@ -74,7 +74,7 @@ TEST(Scene, HoldsTheSurfacesOfThePair) {
   EXPECT_EQ(unflatten(scene.rest.points), scene.aligned.points);
   EXPECT_EQ(unflatten(scene.rest.normals), scene.aligned.normals);
   EXPECT_TRUE(scene.unfiltered.empty());
-  const SurfaceMap target = make_surface_map(pair.target, kCamera);
+  const SurfaceImage target = make_surface_image(pair.target, kCamera);
   EXPECT_LT(difference(unflatten(scene.target.points), target.points.pixels()), 1e-3);
 }
 
@@ -85,16 +85,16 @@ TEST(Scene, FiltersWhatIsRegisteredAndKeepsWhatWasGiven) {
   const BilateralFilter filter(4.5, 30, 6);
   const Scene scene =
       make_scene(pair, method_with(std::make_unique<BilateralFilter>(filter)), device, 1, times);
-  const Surface given = make_surface(make_surface_map(pair.source, kCamera), {});
+  const Surface given = make_surface(make_surface_image(pair.source, kCamera), {});
   pair.source.depth = filter.filter_reference(pair.source.depth);
   pair.target.depth = filter.filter_reference(pair.target.depth);
-  const Surface smooth = make_surface(make_surface_map(pair.source, kCamera), {});
+  const Surface smooth = make_surface(make_surface_image(pair.source, kCamera), {});
   EXPECT_LT(difference(scene.source.points, given.points), 1e-3);
   EXPECT_LT(difference(scene.aligned.points, turned(smooth.points)), 1e-2);
   EXPECT_LT(difference(scene.source.normals, smooth.normals), 2e-2);
   EXPECT_LT(difference(scene.unfiltered, turned(given.points)), 1e-3);
   EXPECT_GT(difference(given.points, smooth.points), 1) << "the filter did something";
-  const SurfaceMap target = make_surface_map(pair.target, kCamera);
+  const SurfaceImage target = make_surface_image(pair.target, kCamera);
   EXPECT_LT(difference(unflatten(scene.target.points), target.points.pixels()), 1e-2);
 }
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "framework/evaluation/metrics.h"
 #include "framework/registration/method.h"
-#include "framework/registration/metrics.h"
 #include "framework/registration/registration.h"
 #include "tests/experiments/experiment_files.h"
 
@@ -63,7 +63,7 @@ class ScheduledRegistration : public ExperimentFiles {
   }
 
   double residual(const RegistrationResult& result, const std::vector<Eigen::Vector3f>& points) const {
-    return Evaluation(pair_, result.source, make_surface_map(pair_.target, pair_.camera))
+    return Evaluation(pair_, result.source, make_surface_image(pair_.target, pair_.camera))
         .measure(points)
         .residual_mean;
   }

@@ -21,9 +21,9 @@ SampleRun::SampleRun(float left) {
   for (int v = 0; v < 30; ++v) pair.source.depth(10, v) = 0;
   pair.target.depth = DepthImage(40, 30, target_depth);
   pair.scene_flow = Image<Eigen::Vector3f>(40, 30, Eigen::Vector3f(0, 0, target_depth - 800));
-  target = make_surface_map(pair.target, pair.camera);
+  target = make_surface_image(pair.target, pair.camera);
   RegistrationResult& result = run.result;
-  result.source = make_surface(make_surface_map(pair.source, pair.camera), {});
+  result.source = make_surface(make_surface_image(pair.source, pair.camera), {});
   result.aligned_points = moved(result.source.points, 10);
   result.points = moved(result.source.points, target_depth - 800 - left);
   result.normals = result.source.normals;

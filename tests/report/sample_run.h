@@ -16,7 +16,7 @@ struct SampleRun {
 
   static constexpr float target_depth = 830;
   FramePair pair;
-  SurfaceMap target;
+  SurfaceImage target;
   NearestDistances nearest;
   RunRecord run;
 };
