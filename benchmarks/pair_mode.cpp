@@ -15,7 +15,7 @@
 #include "experiments/runner/workbench.h"
 #include "framework/core/stopwatch.h"
 #include "framework/evaluation/metrics.h"
-#include "framework/registration/registration.h"
+#include "framework/tracking/register_pair.h"
 
 namespace pliant::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include "framework/evaluation/metrics.h"
 #include "framework/geometry/frame.h"
 #include "framework/registration/edit.h"
-#include "framework/registration/result.h"
+#include "framework/tracking/result.h"
 
 namespace pliant {
 

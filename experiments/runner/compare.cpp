@@ -9,7 +9,7 @@
 #include "experiments/runner/runner.h"
 #include "framework/core/error.h"
 #include "framework/io/file.h"
-#include "framework/registration/registration.h"
+#include "framework/tracking/register_pair.h"
 
 namespace pliant {
 namespace {

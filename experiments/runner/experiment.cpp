@@ -12,7 +12,7 @@
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
 #include "framework/registration/handle.h"
-#include "framework/registration/method.h"
+#include "framework/tracking/method.h"
 
 namespace pliant {
 namespace {

@@ -7,7 +7,7 @@
 #include "experiments/runner/result_json.h"
 #include "framework/core/error.h"
 #include "framework/io/file.h"
-#include "framework/registration/registration.h"
+#include "framework/tracking/register_pair.h"
 
 namespace pliant {
 namespace {
@@ -98,7 +98,6 @@ NearestDistances measure(const Evaluation& evaluation, RunRecord& record, const 
       progress.tell(fmt::format("measuring distances: {:.0f} %", 100 * share));
     });
   };
-  progress.tell("measuring distances");
   NearestDistances distances;
   distances.initial = nearest(result.source.points);
   const bool is_aligned = result.aligned_points != result.source.points;
@@ -126,7 +125,8 @@ RunRecord make_run(const ExperimentPlan::Run& run, const fs::path& folder, Workb
     });
   });
   device.measure_stages(false);
-  const SurfaceImage target = make_surface_image(pair.target, pair.camera);
+  progress.tell("measuring distances");
+  const SurfaceImage target = make_surface_image(device, pair.target, pair.camera);
   const Evaluation evaluation(pair, record.result.source, target);
   const NearestDistances nearest = measure(evaluation, record, progress);
   write_reports(run, ReportInput{pair, target, nearest, record}, folder, workbench.registry(), progress);

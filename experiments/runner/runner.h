@@ -10,6 +10,7 @@
 #include "experiments/runner/table.h"
 #include "experiments/runner/workbench.h"
 #include "framework/core/log.h"
+#include "framework/tracking/method.h"
 
 namespace pliant {
 

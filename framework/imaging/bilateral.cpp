@@ -42,6 +42,17 @@ double median(std::vector<float> values) {
   return *middle;
 }
 
+/// Of depths in such coarse steps that most neighbours have the same: what rounding to them makes uncertain.
+/// 0 where hardly any differ, as at the edges of flat things.
+double estimate_rounding(std::vector<float> bends) {
+  constexpr std::size_t fewest = 8;  // one in so many
+  const auto equal = static_cast<std::size_t>(std::count(bends.begin(), bends.end(), 0.0F));
+  const std::size_t different = bends.size() - equal;
+  if (different * fewest < bends.size()) return 0;
+  std::erase(bends, 0.0F);
+  return median(std::move(bends)) / std::sqrt(12.0);
+}
+
 double median_depth(const DepthMap& map) {
   std::vector<float> depths;
   for_each_triple(map, [&](float, float centre, float) { depths.push_back(centre); });
@@ -103,9 +114,11 @@ double estimate_noise(const DepthMap& map) {
   for_each_triple(map, [&](float left, float centre, float right) {
     bends.push_back(std::abs(left - 2 * centre + right));
   });
+  const double bend = median(bends);
+  if (bend == 0) return estimate_rounding(std::move(bends));
   // The second difference of white noise has 6 times its variance; the median of a normal distribution's
   // magnitude is 0.6745 standard deviations.
-  return median(std::move(bends)) / (0.6745 * std::sqrt(6.0));
+  return bend / (0.6745 * std::sqrt(6.0));
 }
 
 BilateralByNoise::BilateralByNoise(double gain, double sigma_depth)

@@ -28,7 +28,8 @@ class BilateralFilter : public DepthFilter {
 
 /// How uncertain the depths of a map are: the standard deviation (mm) of white noise whose second differences
 /// along the rows would have the same median magnitude. Steps of depth hardly count, nor does a surface that
-/// bends little from pixel to pixel. 0 where no three pixels in a row have depth.
+/// bends little from pixel to pixel. Of depths in steps so coarse that most neighbours are equal, that of the
+/// rounding. 0 where no three pixels in a row have depth.
 double estimate_noise(const DepthMap& map);
 
 /// The bilateral filter [Eq. 3.1] with a window as wide as the noise asks for, so that normals are equally

@@ -88,4 +88,14 @@ PointSet make_surface_map(Device& device, const DepthMap& map, const Camera& cam
   return surface;
 }
 
+SurfaceImage make_surface_image(Device& device, const RgbdFrame& frame, const Camera& camera) {
+  const PointSet map = make_surface_map(device, DepthMap(frame), camera);
+  const Image<Eigen::Vector3f> none(frame.depth.width(), frame.depth.height(), Eigen::Vector3f::Zero());
+  SurfaceImage image{none, none};
+  if (map.points.empty()) return image;
+  map.points.copy_to(image.points(0, 0).data());
+  map.normals.copy_to(image.normals(0, 0).data());
+  return image;
+}
+
 }  // namespace pliant

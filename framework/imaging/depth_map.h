@@ -49,4 +49,7 @@ inline constexpr int max_window_radius = DepthMap::halo;
 PointSet make_surface_map(Device& device, const DepthMap& map, const Camera& camera,
                           int radius = default_normal_radius, float depth_step = default_depth_step);
 
+/// What make_surface_image of surface.h does, made on the device.
+SurfaceImage make_surface_image(Device& device, const RgbdFrame& frame, const Camera& camera);
+
 }  // namespace pliant

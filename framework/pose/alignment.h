@@ -7,25 +7,11 @@
 
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
+#include "framework/geometry/point_matches.h"
 #include "framework/geometry/point_set.h"
 #include "framework/geometry/surface_map.h"
 
 namespace pliant {
-
-/// Points of the source (`from`) and of the target (`to`) that are believed to be the same, in mm.
-struct PointMatches {
-  std::vector<Eigen::Vector3d> from;
-  std::vector<Eigen::Vector3d> to;
-  std::vector<float> confidence;  ///< of each, above 0 and at most 1: factor of its squared residual
-
-  void add(const Eigen::Vector3d& source, const Eigen::Vector3d& target, float certainty = 1) {
-    from.push_back(source);
-    to.push_back(target);
-    confidence.push_back(certainty);
-  }
-
-  std::size_t size() const { return from.size(); }
-};
 
 /// What an alignment may look at; all of it stays as it is during the call. Maps have one point a pixel of
 /// the pair's camera, (0, 0, 0) where there is none, and are filtered by the method's filter.
@@ -45,8 +31,10 @@ struct AlignmentResult {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  ///< millimetres, camera frame
   std::string method = "none";  ///< what found `motion`: "none", "features", "icp" or "features, icp"
   std::string reason;           ///< in words, why that one, and what became of the others
-  int matches = 0;              ///< candidate matches (0 where the method has none)
-  int inliers = 0;              ///< those that agree with `motion`
+  /// Whether the source is far from the target and no motion was found that brings it near: it stays.
+  bool failed = false;
+  int matches = 0;  ///< candidate matches (0 where the method has none)
+  int inliers = 0;  ///< those that agree with `motion`
   /// The candidates that agree with `motion` as far as a deformation allows.
   PointMatches features;
 };

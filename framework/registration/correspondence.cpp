@@ -68,7 +68,7 @@ void ProjectiveCorrespondence::measure(Device& device, const PointSet& moved, co
              static_cast<cl_int>(distances.size()), moved.points.device(device), moved.normals.device(device),
              pinhole(target.camera), image_size(target.camera), target.points.device(device),
              target.normals.device(device), max_distance_, least_cosine_, least_facing_,
-             distances.write_device(device));
+             cl_int{hole_radius()}, distances.write_device(device));
 }
 
 void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const SurfaceMap& target,
@@ -77,7 +77,8 @@ void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const Su
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const Eigen::Vector3f point = at(moved.points, i);
     const Eigen::Vector3f normal = at(moved.normals, i);
-    const auto pixel = seen_pixel_reference(target, point);
+    Pixel pixel = seen_pixel_reference(target, point);
+    if (!pixel) pixel = search(target, point, normal, hole_radius());
     if (pixel && is_facing(point, normal) && accepts(target, *pixel, point, normal))
       distances[i] = (point - at(target.points, *pixel)).norm();
   }
@@ -163,7 +164,7 @@ ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::match_point(const Surf
                                                                       const Eigen::Vector3f& normal) const {
   if (!is_facing(point, normal)) return std::nullopt;
   Pixel pixel = seen_pixel_reference(target, point);
-  if (!pixel && options_.steps > 0) pixel = search(target, point, normal, 1);
+  if (!pixel) pixel = search(target, point, normal, hole_radius());
   if (pixel) pixel = walk(target, point, *pixel);
   if (!pixel || !accepts(target, *pixel, point, normal))
     pixel = search(target, point, normal, options_.search_radius);

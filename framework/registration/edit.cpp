@@ -7,8 +7,8 @@
 
 #include "framework/core/error.h"
 #include "framework/core/stopwatch.h"
+#include "framework/deformation/embedded_graph.h"
 #include "framework/deformation/warp.h"
-#include "framework/registration/registration.h"
 
 namespace pliant {
 namespace {
@@ -46,7 +46,7 @@ std::shared_ptr<Constraints> make_constraints(Device& device, const Surface& sur
 /// One bending of a surface.
 class Edit {
  public:
-  Edit(const FramePair& pair, const NamedHandles& handles, const Method& method, Device& device)
+  Edit(const FramePair& pair, const NamedHandles& handles, const NonRigidMethod& method, Device& device)
       : name_(pair.name),
         handles_(handles),
         method_(method),
@@ -55,12 +55,9 @@ class Edit {
         rest_{flatten(source_.points), flatten(source_.normals)},
         grips_(take_hold(handles, source_)),
         nodes_(
-            timed(times_, "ans", [&] { return method.graph->select_nodes(device, source_, pair.camera); })) {
-    for (const int node : nodes_->points())
-      positions_.push_back(source_.points[static_cast<std::size_t>(node)]);
-    if (positions_.empty())
-      throw DataError(
-          fmt::format("{}: no node of the graph falls on the source; choose a finer one", pair.name));
+            timed(times_, "ans", [&] { return method.graph->select_nodes(device, source_, pair.camera); })),
+        graph_(embed_graph(device, *nodes_, source_.points, rest_.points, method.nearest_nodes, pair.name,
+                           times_)) {
     make_problem();
   }
 
@@ -72,7 +69,7 @@ class Edit {
     const SolverSummary summary = solver->summaries().front();
     if (summary.termination == "failed") throw NumericalError(name_ + ": the solver found no finite step");
     PointSet moved{Array<float>(rest_.points.size()), Array<float>(rest_.normals.size())};
-    warp(device_, rest_, influences_, problem_->node_points(), problem_->unknowns(), moved);
+    warp(device_, rest_, graph_.influences, problem_->node_points(), problem_->unknowns(), moved);
     EditResult result;
     result.points = unflatten(moved.points);
     result.normals = unflatten(moved.normals);
@@ -85,16 +82,12 @@ class Edit {
 
  private:
   void make_problem() {
-    influences_ = compute_influences(device_, rest_.points, positions_, method_.nearest_nodes);
-    influences_.nodes.host();  // waits here for the device: its "weights" are not the time of "edges"
-    auto edges =
-        timed(times_, "edges", [&] { return find_edges(influences_, static_cast<int>(positions_.size())); });
-    const auto held = make_constraints(device_, source_, grips_, influences_);
+    const auto held = make_constraints(device_, source_, grips_, graph_.influences);
     held_ = static_cast<int>(held->size());
     std::vector<Term> terms;
     for (const Energy& energy : method_.energies)
       terms.push_back({energy, energy.stencil == Stencil::per_constraint ? held : nullptr});
-    problem_ = std::make_unique<Problem>(DeformationGraph{positions_, std::move(edges)}, std::move(terms),
+    problem_ = std::make_unique<Problem>(DeformationGraph{graph_.positions, graph_.edges}, std::move(terms),
                                          method_.length_unit, *method_.transform);
   }
 
@@ -121,8 +114,8 @@ class Edit {
   }
 
   void record(const SolverSummary& summary, EditResult& result) {
-    result.node_positions = positions_;
-    result.graph_cells = nodes_->cells();
+    result.node_positions = graph_.positions;
+    result.graph_cells = graph_.cells;
     result.counts.source_points = static_cast<int>(source_.size());
     result.counts.nodes = problem_->node_count();
     result.counts.edges = static_cast<int>(problem_->graph().edges.size());
@@ -141,14 +134,13 @@ class Edit {
   StageTimes times_;
   const std::string& name_;
   const NamedHandles& handles_;
-  const Method& method_;
+  const NonRigidMethod& method_;
   Device& device_;
   Surface source_;
   PointSet rest_;
   std::vector<Grip> grips_;
   std::unique_ptr<NodeSelection> nodes_;
-  std::vector<Eigen::Vector3f> positions_;
-  Influences influences_;
+  EmbeddedGraph graph_;
   int held_ = 0;
   std::unique_ptr<Problem> problem_;
 };
@@ -176,7 +168,7 @@ Surface source_surface(const FramePair& pair) {
   return surface;
 }
 
-EditResult edit_surface(const FramePair& pair, const NamedHandles& handles, const Method& method,
+EditResult edit_surface(const FramePair& pair, const NamedHandles& handles, const NonRigidMethod& method,
                         Device& device) {
   const Stopwatch watch;
   device.take_stage_times();  // of whatever came before
@@ -187,7 +179,7 @@ EditResult edit_surface(const FramePair& pair, const NamedHandles& handles, cons
 }
 
 std::unique_ptr<Problem> make_edit_problem(const FramePair& pair, const NamedHandles& handles,
-                                           const Method& method, Device& device) {
+                                           const NonRigidMethod& method, Device& device) {
   return Edit(pair, handles, method, device).take_problem();
 }
 

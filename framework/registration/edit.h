@@ -7,8 +7,8 @@
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
 #include "framework/registration/handle.h"
-#include "framework/registration/method.h"
-#include "framework/registration/result.h"
+#include "framework/registration/nonrigid_method.h"
+#include "framework/registration/nonrigid_result.h"
 
 namespace pliant {
 
@@ -31,9 +31,9 @@ struct EditResult {
   std::vector<HandleFit> handles;
   HandleFit all_handles() const;
 
-  RegistrationResult::Counts counts;  ///< there are no outer iterations: nothing is matched
-  RegistrationResult::Energy energy;  ///< per iteration of the solver
-  RegistrationResult::SolverRecord solver;
+  NonRigidResult::Counts counts;  ///< there are no outer iterations: nothing is matched
+  NonRigidResult::Energy energy;  ///< per iteration of the solver
+  NonRigidResult::SolverRecord solver;
   std::vector<std::string> warnings;  ///< of the pair, then what was done otherwise than asked for
   double total_ms = 0;
   StageTimes time_ms;
@@ -46,12 +46,12 @@ using NamedHandles = std::vector<std::pair<std::string, Handle>>;
 /// transform, energies and solver; the target plays no part. Throws ConfigError for a handle that holds
 /// nothing, DataError when graph or source give too little to work with, NumericalError when there is no
 /// finite answer.
-EditResult edit_surface(const FramePair& pair, const NamedHandles& handles, const Method& method,
+EditResult edit_surface(const FramePair& pair, const NamedHandles& handles, const NonRigidMethod& method,
                         Device& device);
 
 /// The problem that edit_surface solves, at its start.
 std::unique_ptr<Problem> make_edit_problem(const FramePair& pair, const NamedHandles& handles,
-                                           const Method& method, Device& device);
+                                           const NonRigidMethod& method, Device& device);
 
 /// The points of the source of a pair. Throws DataError when there is none, and as check_source does.
 Surface source_surface(const FramePair& pair);

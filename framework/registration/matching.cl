@@ -201,7 +201,7 @@ kernel void match(int count, global const int* selected, global const float* res
   const Truth facing = are_facing(p, n, least_facing);
   Pixels pixels = select(NONE, target_pixels(p, camera, size, target_points), facing);
   if (steps > 0) {
-    // A walk may begin beside a pixel that is missing.
+    // As hole_radius() says.
     pixels = look_around(pixels, facing, p, n, 1, camera, size, target_points, target_normals, max_distance,
                          least_cosine);
     pixels = closest_pixels(p, pixels, steps, camera, size, target_points, target_normals);
@@ -246,19 +246,24 @@ kernel void find_in_force(int count, global const float* confidence, global int*
   *found = i < count;
 }
 
-// Distance of each point to the target point at its pixel where it may be seen and that is acceptable, else
-// -1. WIDTH points a work-item.
+// Distance of each point to the target point at its pixel, or where there is none to the nearest one within
+// `radius` pixels, where it may be seen and that is acceptable, else -1.
 kernel void measure(int count, global const float* moved, global const float* normals, float4 camera,
                     int2 size, global const float* target_points, global const float* target_normals,
-                    float max_distance, float least_cosine, float least_facing, global float* residuals) {
+                    float max_distance, float least_cosine, float least_facing, int radius,
+                    global float* residuals) {
   const int first = get_global_id(0) * WIDTH;
   if (first >= count) return;
   const Vector p = load_vectors(moved + 3 * first, count - first);
   const Vector n = load_vectors(normals + 3 * first, count - first);
-  const Pixels pixels = project(p, camera, size);
+  const Truth facing = are_facing(p, n, least_facing);
+  Pixels pixels = target_pixels(p, camera, size, target_points);
+  if (radius > 0)
+    pixels = look_around(pixels, facing, p, n, radius, camera, size, target_points, target_normals,
+                         max_distance, least_cosine);
   const Vector q = gather(pixels, target_points);
-  const Truth is_known = are_facing(p, n, least_facing) &&
-                         are_acceptable(p, n, q, gather(pixels, target_normals), max_distance, least_cosine);
+  const Truth is_known =
+      facing && are_acceptable(p, n, q, gather(pixels, target_normals), max_distance, least_cosine);
   float values[WIDTH];
   STORE(select((Lanes)-1, distances(p, q), is_known), values);
   for (int lane = 0; lane < min(WIDTH, count - first); ++lane) residuals[first + lane] = values[lane];
@@ -282,7 +287,7 @@ kernel void sum_residuals(int count, global const float* moved, float4 camera, i
     const Lanes r = LOAD(values);
     const Lanes there = WHERE(LANE_OFFSETS < (Lanes)(end - first), (Lanes)1);
     const Pixels pixels = target_pixels(p, camera, size, target_points);
-    landed += WHERE(pixels >= (Pixels)0, there);
+    landed += WHERE(pixels >= (Pixels)0 || r >= (Lanes)0, there);
     const Lanes known = WHERE(r >= (Lanes)0, (Lanes)1);
     const Lanes counted = select((Lanes)cut, fmin(r, (Lanes)cut), r >= (Lanes)0);
     const Truth is_finite =

@@ -45,6 +45,10 @@ class ProjectiveCorrespondence : public Correspondence {
                          std::vector<float>& distances) const;
 
  private:
+  /// Pixels around one without a target point in which another is taken in its place: a walk may begin there,
+  /// and a target with holes is no target that is missed.
+  int hole_radius() const { return options_.steps > 0 ? 1 : 0; }
+
   using Pixel = std::optional<std::size_t>;
   Pixel match_point(const SurfaceMap& target, const Eigen::Vector3f& point,
                     const Eigen::Vector3f& normal) const;

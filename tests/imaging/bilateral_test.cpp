@@ -118,6 +118,18 @@ TEST(Noise, IsEstimatedWhateverTheShape) {
   EXPECT_EQ(estimate_noise(DepthMap(RgbdFrame{DepthImage(20, 20), {}, {}})), 0) << "nothing is seen";
 }
 
+TEST(Noise, OfCoarseStepsIsTheirRounding) {
+  RgbdFrame steps{DepthImage(60, 40), {}, {}};
+  RgbdFrame boxes = steps;
+  for (int v = 0; v < 40; ++v)
+    for (int u = 0; u < 60; ++u) {
+      steps.depth(u, v) = 800.0F + 12.0F * static_cast<float>(u / 5);
+      boxes.depth(u, v) = 800.0F + 100.0F * static_cast<float>(u / 30);
+    }
+  EXPECT_NEAR(estimate_noise(DepthMap(steps)), 12 / std::sqrt(12.0), 1e-4);
+  EXPECT_EQ(estimate_noise(DepthMap(boxes)), 0) << "a single edge is no rounding";
+}
+
 TEST(BilateralByNoise, WindowsGrowWithTheNoiseInDistancesBetweenPoints) {
   const BilateralByNoise filter(3, 30);
   const double spacing = 800 / kCamera.fx;

@@ -410,8 +410,18 @@ TEST(AutomaticAlignment, GoesByDepthWithoutColorTextureOrAgreementAndSaysWhy) {
   }
 }
 
+TEST(AutomaticAlignment, FailsWhereItIsFarAndFindsNothing) {
+  FramePair pair = bulging_plane();
+  for (int v = 0; v < 240; ++v)
+    for (int u = 0; u < 320; ++u) pair.target.depth(u, v) = (u / 40 + v / 40) % 2 == 0 ? 500.0F : 3000.0F;
+  const AlignmentResult result = align(*make_automatic(), pair, 1, false);
+  EXPECT_EQ(result.method, "none") << result.reason;
+  EXPECT_TRUE(result.failed);
+}
+
 TEST(AutomaticAlignment, StaysWhereThingsOnlyDeform) {
   const AlignmentResult result = align(*make_automatic(), bulging_plane(), 1, false);
+  EXPECT_FALSE(result.failed);
   EXPECT_EQ(result.method, "none");
   EXPECT_TRUE(result.motion.matrix().isIdentity(0));
   EXPECT_THAT(result.reason, AllOf(HasSubstr("no features without colour"), HasSubstr("not clearly nearer")));

@@ -11,7 +11,7 @@
 #include "framework/evaluation/metrics.h"
 #include "framework/geometry/pixel_index.h"
 #include "framework/registration/edit.h"
-#include "framework/registration/registration.h"
+#include "framework/tracking/register_pair.h"
 #include "tests/experiments/experiment_files.h"
 
 namespace pliant::testing {

@@ -1,4 +1,4 @@
-#include "framework/registration/registration.h"
+#include "framework/tracking/register_pair.h"
 
 #include <gmock/gmock.h>
 
@@ -9,6 +9,8 @@
 #include "framework/deformation/warp.h"
 #include "framework/evaluation/metrics.h"
 #include "framework/geometry/pixel_index.h"
+#include "framework/registration/nonrigid.h"
+#include "framework/tracking/scene.h"
 #include "tests/experiments/experiment_files.h"
 #include "tests/problem/sheet_problem.h"
 
@@ -91,6 +93,75 @@ TEST_F(RegistrationTest, TellsOfEveryIteration) {
     EXPECT_NEAR(told[i].done, (static_cast<double>(i) + 1) / 3, 1e-12);
     EXPECT_THAT(told[i].message, HasSubstr("iteration " + std::to_string(i + 1) + ": residual "));
   }
+}
+
+TEST_F(RegistrationTest, AnObserverSeesEachIteration) {
+  for (const std::string graph :
+       {"uniform", "{type: quadtree, refine_threshold: 1, collapse_threshold: 0.5}"}) {
+    const std::vector<std::string> sets{"stopping={min_progress: 0, max_iterations: 3}", "graph=" + graph};
+    const FramePair pair = pair_of(sets);
+    const Method method = method_of(sets);
+    StageTimes times;
+    const Scene scene = make_scene(pair, method, device_, 1, times);
+    std::vector<double> residuals;
+    const auto result = NonRigid(method, device_).run(input_of(scene), [&](const IterationView& view) {
+      residuals.push_back(view.measured.residual_mean);
+      EXPECT_EQ(view.number, static_cast<int>(residuals.size()));
+      EXPECT_EQ(view.is_last, view.number == 3);
+      const std::size_t followed = graph == "uniform" ? view.constraints.size() : scene.source.size();
+      EXPECT_EQ(view.points.points.size(), 3 * followed);
+      double sum = 0;
+      int matched = 0;
+      for (const float residual : view.residuals.host()) {
+        sum += std::max(residual, 0.0F);
+        matched += residual >= 0 ? 1 : 0;
+      }
+      EXPECT_EQ(matched, view.measured.matched);
+      EXPECT_NEAR(sum / matched, view.measured.residual_mean, 1e-3);
+      EXPECT_EQ(view.graph.nodes.size(), view.graph.positions.size());
+    });
+    ASSERT_EQ(residuals.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(residuals[i], result.history[i + 1].residual_mean);
+  }
+}
+
+TEST_F(RegistrationTest, WhatAnObserverThrowsComesThroughAndTheNextRunIsWhole) {
+  const FramePair pair = pair_of({});
+  const Method method = method_of({});
+  StageTimes times;
+  const Scene scene = make_scene(pair, method, device_, 1, times);
+  const NonRigid registration(method, device_);
+  const auto expected = registration.run(input_of(scene));
+  const auto stop = [](const IterationView&) { throw std::runtime_error("enough"); };
+  EXPECT_THAT([&] { registration.run(input_of(scene), stop); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("enough")));
+  EXPECT_EQ(registration.run(input_of(scene)).points, expected.points);
+}
+
+TEST_F(RegistrationTest, TrustsMatchesByTheNoiseTheyRestOn) {
+  const std::vector<std::string> noisy{"data.noise=1", "energies.point_to_plane={weight: 64}",
+                                       "energies.constraint={weight: 4}"};
+  const FramePair pair = pair_of(noisy);
+  StageTimes times;
+  Method method = method_of(noisy);
+  const auto in_full = register_pair(pair, method, device_, 1);
+  method.trusted_noise = 1e3;
+  EXPECT_EQ(register_pair(pair, method, device_, 1).points, in_full.points);
+  const double noise = make_scene(pair, method, device_, 1, times).target_noise;
+  ASSERT_GT(noise, 0.1);
+  method.trusted_noise = noise / 4;
+  Method weaker = method_of(
+      {"data.noise=1", "energies.point_to_plane={weight: 4}", "energies.constraint={weight: 0.25}"});
+  const auto trusted = register_pair(pair, method, device_, 1);
+  EXPECT_EQ(trusted.points, register_pair(pair, weaker, device_, 1).points);
+  EXPECT_NE(trusted.points, in_full.points);
+}
+
+TEST_F(RegistrationTest, SaysWhenTheAlignmentIsTheResult) {
+  const auto result = register_sheet({"stopping={min_gain: 1, max_iterations: 3}"});
+  EXPECT_EQ(result.returned_iteration, 0);
+  EXPECT_THAT(result.reason, HasSubstr("no iteration gained"));
+  EXPECT_THAT(register_sheet({}).reason, IsEmpty());
 }
 
 TEST_F(RegistrationTest, BringsTheSheetWhereItTrulyWent) {

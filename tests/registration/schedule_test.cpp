@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "framework/evaluation/metrics.h"
-#include "framework/registration/method.h"
-#include "framework/registration/registration.h"
+#include "framework/tracking/method.h"
+#include "framework/tracking/register_pair.h"
 #include "tests/experiments/experiment_files.h"
 
 // Weights and scales of losses that go from initial values to final ones.

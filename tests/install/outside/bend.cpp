@@ -3,7 +3,7 @@
 #include "experiments/runner/components.h"
 #include "experiments/runner/experiment.h"
 #include "experiments/runner/workbench.h"
-#include "framework/registration/registration.h"
+#include "framework/tracking/register_pair.h"
 
 // Registers the pair of an experiment file and prints how far the first points went; fails when they did not.
 int main() {

@@ -1,4 +1,4 @@
-#include "framework/registration/method.h"
+#include "framework/registration/nonrigid_method.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,16 +45,14 @@ ParameterTable schedule_table() {
 
 }  // namespace
 
-bool uses_features(const Method& method) {
+bool uses_features(const NonRigidMethod& method) {
   return std::any_of(method.energies.begin(), method.energies.end(),
                      [](const Energy& energy) { return energy.uses_features() && energy.weight > 0; });
 }
 
-std::vector<Parameter> method_rows() {
-  const Method method;
+std::vector<Parameter> nonrigid_rows() {
+  const NonRigidMethod method;
   return {
-      component("filter", "filter", "none").doc("Noise reduction of both depth images before registration"),
-      component("alignment", "alignment", "none").doc("Rigid motion from which registration starts"),
       component("graph", "graph", "uniform").doc("Where the nodes of the deformation graph are"),
       component("transform", "transform", "affine").doc("What a node carries"),
       integer("nearest_nodes", method.nearest_nodes)
@@ -67,16 +65,21 @@ std::vector<Parameter> method_rows() {
           .unit("mm")
           .above(0)
           .doc("Unit of length in the energies: 1000 for metres; it shifts the balance of their weights"),
+      real("trusted_noise")
+          .unit("mm")
+          .above(0)
+          .optional()
+          .doc("Noise of the target's depth up to which energies of matches count in full; beyond it they "
+               "weigh "
+               "by (trusted_noise / noise)^2; not given: always in full"),
       component("solver", "solver", "gauss_newton").doc("What minimises E_tot"),
       group("schedule", schedule_table()).doc("A stiff and tolerant start, if energies have initial values"),
       group("stopping", stopping_table()).doc("When the outer loop ends"),
   };
 }
 
-Method make_method(const Parameters& experiment, const Registry& registry) {
-  Method method;
-  method.filter = registry.make<DepthFilter>(experiment.section("filter"));
-  method.alignment = registry.make<Alignment>(experiment.section("alignment"));
+NonRigidMethod make_nonrigid_method(const Parameters& experiment, const Registry& registry) {
+  NonRigidMethod method;
   method.graph = registry.make<GraphBuilder>(experiment.section("graph"));
   method.transform = registry.make<NodeTransform>(experiment.section("transform"));
   method.nearest_nodes = static_cast<int>(experiment.integer("nearest_nodes"));
@@ -85,6 +88,7 @@ Method make_method(const Parameters& experiment, const Registry& registry) {
   for (const auto& [name, section] : experiment.sections("energies"))
     method.energies.push_back(*registry.make<Energy>(section));
   method.length_unit = experiment.real("length_unit");
+  if (experiment.has("trusted_noise")) method.trusted_noise = experiment.real("trusted_noise");
   method.solver = registry.make<Solver>(experiment.section("solver"));
   method.schedule = {static_cast<int>(experiment.section("schedule").integer("iterations"))};
   method.stopping = make_stopping(experiment.section("stopping"));

@@ -1,4 +1,4 @@
-#include "framework/registration/scene.h"
+#include "framework/tracking/scene.h"
 
 #include <gtest/gtest.h>
 

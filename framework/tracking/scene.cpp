@@ -1,9 +1,12 @@
-#include "framework/registration/scene.h"
+#include "framework/tracking/scene.h"
 
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "framework/core/error.h"
 #include "framework/core/stopwatch.h"
+#include "framework/imaging/bilateral.h"
 #include "framework/imaging/depth_map.h"
 
 namespace pliant {
@@ -13,10 +16,9 @@ DepthMap make_depth_map(const RgbdFrame& frame, StageTimes& times) {
   return timed(times, "surface", [&] { return DepthMap(frame); });
 }
 
-PointSet make_target_map(const FramePair& pair, const Method& method, Device& device, StageTimes& times) {
-  const DepthMap depth = make_depth_map(pair.target, times);
-  const auto filtered = method.filter->filter(device, depth, pair.camera);
-  return make_surface_map(device, filtered ? *filtered : depth, pair.camera);
+PointSet make_map(const DepthMap& given, const std::optional<DepthMap>& filtered, const Camera& camera,
+                  Device& device) {
+  return make_surface_map(device, filtered ? *filtered : given, camera);
 }
 
 Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const RgbdFrame& frame) {
@@ -44,6 +46,11 @@ std::vector<Eigen::Vector3f> moved_by(const Eigen::Isometry3d& motion, std::vect
   return points;
 }
 
+PointMatches moved_by(const Eigen::Isometry3d& motion, PointMatches features) {
+  for (Eigen::Vector3d& point : features.from) point = motion * point;
+  return features;
+}
+
 }  // namespace
 
 Scene make_scene(const FramePair& pair, const Method& method, Device& device, std::uint64_t seed,
@@ -52,8 +59,12 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   // Enqueued first: the device makes the surfaces while the host finds the alignment.
   const DepthMap depth = make_depth_map(pair.source, times);
   const auto filtered = method.filter->filter(device, depth, pair.camera);
-  const PointSet map = make_surface_map(device, filtered ? *filtered : depth, pair.camera);
-  SurfaceMap target(pair.camera, make_target_map(pair, method, device, times));
+  const PointSet map = make_map(depth, filtered, pair.camera, device);
+  const DepthMap target_depth = make_depth_map(pair.target, times);
+  SurfaceMap target(
+      pair.camera,
+      make_map(target_depth, method.filter->filter(device, target_depth, pair.camera), pair.camera, device));
+  const double noise = std::isfinite(method.trusted_noise) ? estimate_noise(target_depth) : 0;
 
   const Array<int> pixels(timed(times, "surface", [&] { return pixels_with_depth(depth); }));
   if (pixels.empty()) throw DataError(pair.name + ": the source has no point");
@@ -71,11 +82,17 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   }
   return {pair,
           alignment,
+          moved_by(alignment.motion, alignment.features),
+          noise,
           std::move(target),
           std::move(as_given),
           std::move(aligned),
           std::move(rest),
           std::move(unfiltered)};
+}
+
+NonRigidInput input_of(const Scene& scene) {
+  return {scene.pair.name, scene.aligned, scene.rest, scene.target, scene.target_noise, scene.features};
 }
 
 }  // namespace pliant

@@ -1,13 +1,12 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "framework/core/registry.h"
 #include "framework/deformation/graph_builder.h"
 #include "framework/deformation/node_transform.h"
-#include "framework/imaging/depth_filter.h"
-#include "framework/pose/alignment.h"
 #include "framework/problem/solver.h"
 #include "framework/registration/correspondence.h"
 #include "framework/registration/sampler.h"
@@ -36,10 +35,8 @@ struct Schedule {
   }
 };
 
-/// How a pair is registered: the components that an experiment file puts together.
-struct Method {
-  std::unique_ptr<DepthFilter> filter;
-  std::unique_ptr<Alignment> alignment;
+/// How a source is deformed onto a target: the components of the loop of Figure 4.1.
+struct NonRigidMethod {
   std::unique_ptr<GraphBuilder> graph;
   std::unique_ptr<NodeTransform> transform;
   int nearest_nodes = 4;  ///< k of [Eq. 4.1]
@@ -47,19 +44,23 @@ struct Method {
   std::unique_ptr<Correspondence> correspondence;
   std::vector<Energy> energies;
   double length_unit = 1;  ///< mm per unit of length in the energies
+  /// mm; depth noise (standard deviation) of the target up to which matches count in full. Beyond it energies
+  /// of matches weigh by the inverse of its variance, as in any least squares: what holds the surface
+  /// together stays. Infinite: they always count in full.
+  double trusted_noise = std::numeric_limits<double>::infinity();
   std::unique_ptr<Solver> solver;
   Schedule schedule;
   StoppingRule stopping;
 };
 
 /// Whether any of its energies rests on matched features and counts.
-bool uses_features(const Method& method);
+bool uses_features(const NonRigidMethod& method);
 
-/// The rows of an experiment file that describe a method.
-std::vector<Parameter> method_rows();
+/// The rows of an experiment file that describe such a method.
+std::vector<Parameter> nonrigid_rows();
 
 /// Assembles the method that an experiment describes. Throws ConfigError for a combination that makes no
 /// sense.
-Method make_method(const Parameters& experiment, const Registry& registry);
+NonRigidMethod make_nonrigid_method(const Parameters& experiment, const Registry& registry);
 
 }  // namespace pliant

@@ -1,29 +1,25 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "framework/core/stopwatch.h"
 #include "framework/deformation/node_selection.h"
-#include "framework/device/device.h"
-#include "framework/geometry/surface.h"
-#include "framework/pose/alignment.h"
+#include "framework/registration/nonrigid_method.h"
 
 namespace pliant {
 
-/// What one registration came to. Vectors over points follow the order of `source`.
-struct RegistrationResult {
-  Surface source;                               ///< as given, before any alignment
-  std::vector<Eigen::Vector3f> aligned_points;  ///< mm, after the initial alignment
-  std::vector<Eigen::Vector3f> points;          ///< mm, after non-rigid registration
-  std::vector<Eigen::Vector3f> normals;         ///< of `points`
-  AlignmentResult alignment;
+/// What a non-rigid registration came to. Vectors over points follow the order of the source.
+struct NonRigidResult {
+  std::vector<Eigen::Vector3f> points;   ///< mm, camera frame, deformed
+  std::vector<Eigen::Vector3f> normals;  ///< of `points`
   /// Per point: whether it has a match at the end. What has none (hidden, cut off, too far) went with its
   /// neighbours.
   std::vector<std::uint8_t> matched;
-  std::vector<Eigen::Vector3f>
-      node_positions;                  ///< mm, nodes, on the aligned source, of the graph that led here
-  std::vector<GraphCell> graph_cells;  ///< of that graph; empty where it has none
+  std::vector<Eigen::Vector3f> node_positions;  ///< mm, on the source at rest, of the graph that led here
+  std::vector<GraphCell> graph_cells;           ///< of that graph; empty where it has none
 
   struct Counts {
     int source_points = 0;
@@ -62,10 +58,13 @@ struct RegistrationResult {
   /// when nothing was left to go on with; "failed" when an iteration had no finite answer. After the last
   /// three the result is that of the iteration before.
   std::string termination;
-  std::string reason;                 ///< of one of those three, in words
-  std::vector<std::string> warnings;  ///< of the pair, then what was done otherwise than asked for
-  double total_ms = 0;
-  StageTimes time_ms;  ///< see docs/results.md
+  /// Of one of those three, in words; or that none of the iterations was better than the start.
+  std::string reason;
+  std::vector<std::string> warnings;  ///< what was done otherwise than asked for
+  StageTimes time_ms;                 ///< see docs/results.md
 };
+
+/// What was done otherwise than the method asks for.
+std::vector<std::string> warnings_of(const NonRigidMethod& method, const NonRigidResult::Counts& counts);
 
 }  // namespace pliant

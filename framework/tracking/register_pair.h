@@ -5,8 +5,8 @@
 #include "framework/core/log.h"
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
-#include "framework/registration/method.h"
-#include "framework/registration/result.h"
+#include "framework/tracking/method.h"
+#include "framework/tracking/result.h"
 
 namespace pliant {
 
@@ -18,9 +18,6 @@ namespace pliant {
 /// (Device::measure_stages).
 RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,
                                  std::uint64_t seed, const ProgressSink& progress = {});
-
-/// What was done otherwise than the method asks for.
-std::vector<std::string> warnings_of(const Method& method, const RegistrationResult::Counts& counts);
 
 /// The problem of the first outer iteration: source aligned, graph built, constraints matched once, nothing
 /// solved. Solvers can be compared on it.

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "framework/registration/matched_problem.h"
+#include "framework/registration/nonrigid_result.h"
+
+namespace pliant {
+
+/// A look at non-rigid registration after an outer iteration. What is on the device is copied only when it is
+/// read, and valid only during the call.
+struct IterationView {
+  int number;    ///< 1 for the first
+  bool is_last;  ///< whether the loop has ended
+  const NonRigidResult::Step& measured;
+  const EmbeddedGraph& graph;
+  const Constraints& constraints;
+  const PointSet& points;         ///< those that are followed, where they are now: mm, camera frame
+  const Array<float>& residuals;  ///< of these, mm; -1 where a point has no match that is accepted
+};
+
+/// Called after each outer iteration. What it throws ends the registration and comes through.
+using Observer = std::function<void(const IterationView&)>;
+
+/// Non-rigid registration [thesis Figure 4.1], bound to a method and a device; both must outlive it. Runs on
+/// any number of frames, one after another; what one run throws leaves it fit for the next.
+class NonRigid {
+ public:
+  NonRigid(const NonRigidMethod& method, Device& device);
+
+  /// The same input, method and device give the same bits. Throws DataError when the input or the graph gives
+  /// too little to begin with, NumericalError when the source is not finite. What goes wrong later ends the
+  /// loop: the result is then that of the iteration before, and `termination` and `reason` say why.
+  NonRigidResult run(const NonRigidInput& input, const Observer& observer = {}) const;
+
+  /// The problem of the first outer iteration: graph built, constraints matched once, nothing solved. Solvers
+  /// can be compared on it.
+  std::unique_ptr<Problem> freeze(const NonRigidInput& input) const;
+
+ private:
+  const NonRigidMethod& method_;
+  Device& device_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,61 @@
+#include "framework/tracking/register_pair.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "framework/core/stopwatch.h"
+#include "framework/registration/nonrigid.h"
+#include "framework/tracking/scene.h"
+
+namespace pliant {
+namespace {
+
+Observer telling(const ProgressSink& progress, const std::string& name, int max_iterations) {
+  if (!progress) return {};
+  return [&progress, &name, max_iterations](const IterationView& view) {
+    const double done = view.is_last ? 1.0 : static_cast<double>(view.number) / max_iterations;
+    progress({name, done,
+              fmt::format("iteration {}: residual {:.3f} mm", view.number, view.measured.residual_mean)});
+  };
+}
+
+/// Moves each point that was given as the filtered one in its place was moved. The transforms are not applied
+/// to it: nothing determines what they do across the surface they were fitted to, and noise would be
+/// stretched by that.
+void move_unfiltered(const Scene& scene, std::vector<Eigen::Vector3f>& points) {
+  for (std::size_t i = 0; i < scene.unfiltered.size(); ++i)
+    points[i] += scene.unfiltered[i] - scene.aligned.points[i];
+}
+
+}  // namespace
+
+RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,
+                                 std::uint64_t seed, const ProgressSink& progress) {
+  const Stopwatch watch;
+  device.take_stage_times();  // of whatever came before
+  StageTimes times;
+  Scene scene = make_scene(pair, method, device, seed, times);
+  NonRigidResult deformed =
+      NonRigid(method, device)
+          .run(input_of(scene), telling(progress, pair.name, method.stopping.max_iterations));
+  move_unfiltered(scene, deformed.points);
+  for (const auto& [stage, time] : times) deformed.time_ms[stage] += time;
+  if (scene.alignment.failed)
+    deformed.warnings.insert(
+        deformed.warnings.begin(),
+        "no alignment was found, and the source stays where it is: " + scene.alignment.reason);
+  deformed.warnings.insert(deformed.warnings.begin(), pair.warnings.begin(), pair.warnings.end());
+  return {std::move(deformed), std::move(scene.source),
+          std::move(scene.unfiltered.empty() ? scene.aligned.points : scene.unfiltered),
+          std::move(scene.alignment), watch.milliseconds()};
+}
+
+std::unique_ptr<Problem> freeze_problem(const FramePair& pair, const Method& method, Device& device,
+                                        std::uint64_t seed) {
+  StageTimes times;
+  const Scene scene = make_scene(pair, method, device, seed, times);
+  return NonRigid(method, device).freeze(input_of(scene));
+}
+
+}  // namespace pliant
