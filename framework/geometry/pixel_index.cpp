@@ -77,6 +77,7 @@ std::vector<int> points_on_grid(const Surface& surface, int step) {
 std::vector<int> about_as_many_points_on_grid(const Surface& surface, int wished) {
   const PixelIndex index = index_pixels(surface);
   const double guess = std::sqrt(static_cast<double>(surface.size()) / wished);
+  constexpr int near_enough = 20;  // by one in so many: the next step gives a tenth more at least
   std::vector<int> best;
   const auto miss = [&](const std::vector<int>& points) {
     return std::abs(static_cast<int>(points.size()) - wished);
@@ -86,7 +87,7 @@ std::vector<int> about_as_many_points_on_grid(const Surface& surface, int wished
     auto points = points_on_grid(index, step);
     const bool is_past = static_cast<int>(points.size()) >= wished;
     if (best.empty() || miss(points) < miss(best)) best = std::move(points);
-    if (is_past) break;  // narrower steps give more and more
+    if (is_past || near_enough * miss(best) < wished) break;  // narrower steps give more and more
   }
   return best;
 }

@@ -36,7 +36,8 @@ int point_at(const PixelIndex& index, const Eigen::Vector2i& pixel, const PixelB
 std::vector<int> points_on_grid(const PixelIndex& index, int step);
 std::vector<int> points_on_grid(const Surface& surface, int step);
 
-/// The same with the step that gives most nearly `wished` points; the wider one on a tie. What is so many
+/// The same with the step that gives most nearly `wished` points; the wider one on a tie, and the widest that
+/// comes within a twentieth. What is so many
 /// points apart on an object is the same distance on it whatever the camera's resolution, focal length and
 /// distance.
 std::vector<int> about_as_many_points_on_grid(const Surface& surface, int wished);

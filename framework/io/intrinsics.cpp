@@ -150,7 +150,8 @@ std::string impossible(const Camera& camera) {
 
 /// What cut images may have, and others have not; empty where there is nothing.
 std::string doubt(const Camera& camera) {
-  constexpr double far = 0.25;  // of the size, from the middle
+  constexpr double far = 0.25;           // of the size, from the middle
+  constexpr double widest_pixel = 1.25;  // cameras for depth have square ones
   const auto off = [](double at, int length) { return std::abs(at / length - 0.5); };
   const std::string point = fmt::format("the principal point ({}, {})", camera.cx, camera.cy);
   const std::string size = fmt::format("images of {}x{} pixels", camera.width, camera.height);
@@ -162,6 +163,11 @@ std::string doubt(const Camera& camera) {
   if (const auto other = other_size(camera))
     return fmt::format("{} is that of images of {} pixels; right for {} only if they were cut out of such",
                        point, other->size, size);
+  if (const double aspect = camera.fx / camera.fy; aspect > widest_pixel || aspect < 1 / widest_pixel)
+    return fmt::format(
+        "the focal lengths {} and {} make pixels {:.2f} times as wide as high; were images scaled in "
+        "one direction?",
+        camera.fx, camera.fy, camera.fy / camera.fx);
   if (off(camera.cx, camera.width) <= far && off(camera.cy, camera.height) <= far) return "";
   return fmt::format("{} is far from the middle of {}; right only if they were cut out of larger ones", point,
                      size);

@@ -58,7 +58,7 @@ class AdaptiveSelection : public PointSelection {
         masks_{{masks_over(index.left, index.points.width()), masks_over(index.top, index.points.height())}},
         map_(index.points.pixels()),
         flags_(source.size()),
-        points_(points_on_grid(source, step)) {
+        points_(points_on_grid(index, step)) {
     std::vector<int> is_centre(source.size(), 0);
     for (const int point : points_) is_centre[static_cast<std::size_t>(point)] = 1;
     is_centre_ = Array<int>(std::move(is_centre));

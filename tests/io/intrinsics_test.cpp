@@ -113,6 +113,12 @@ TEST_F(IntrinsicsTest, CutImagesKeepTheirPrincipalPointAndAWarningSaysSo) {
               ElementsAre(HasSubstr("is that of images of 640x480")));
 }
 
+TEST_F(IntrinsicsTest, PixelsThatAreNotSquareAreDoubted) {
+  write("k.txt", "525 0 319.5\n0 350 239.5\n0 0 1\n");
+  EXPECT_THAT(read_intrinsics(file("k.txt"), 640, 480).warnings,
+              ElementsAre(AllOf(HasSubstr("k.txt:1: "), HasSubstr("0.67 times as wide as high"))));
+}
+
 TEST_F(IntrinsicsTest, UsualOnesAreNotDoubted) {
   EXPECT_THAT(warnings_of("517.3 0 318.6 0 516.5 255.3 0 0 1"), IsEmpty());
   EXPECT_THAT(warnings_of("365.5 0 254.9 0 365.5 205.4 0 0 1", 512, 424), IsEmpty());
