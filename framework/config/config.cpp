@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "framework/config/config_overlay.h"
+#include "framework/config/config_overrides.h"
 #include "framework/config/config_reader.h"
 #include "framework/config/config_resolver.h"
 #include "framework/config/config_tree.h"
@@ -94,11 +95,9 @@ class FileLoader {
   }
 
   std::optional<ConfigNode> extended(ConfigNode tree) {
-    const ConfigEntry* entry = tree.find("extends");
-    if (entry == nullptr) return tree;
-    const ConfigEntry extends = *entry;
-    tree.entries.erase(tree.entries.begin() + (entry - tree.entries.data()));
-    auto base = load_base(extends);
+    const auto extends = tree.take("extends");
+    if (!extends) return tree;
+    auto base = load_base(*extends);
     if (base) overlay_.lay_over(*base, tree, {});
     return base;
   }
@@ -267,8 +266,10 @@ Experiment load_experiment(const ConfigSource& source, const ParameterTable& roo
   if (!tree) errors.throw_if_any();
   lay_sets_over(*tree, source.sets, static_cast<int>(loader.files().size()), overlay, errors);
   ConfigResolver resolver(root, registry, source.data_folders, errors);
-  ResolvedSection resolved = resolver.experiment(*tree);
+  ResolvedSection resolved =
+      resolver.experiment(complete_overrides(*tree, root, overlay, errors), {"extends"});
   errors.throw_if_any();
+  keep_given_overrides(resolved.tree, *tree, root);
   std::vector<fs::path> files = loader.files();
   files.insert(files.end(), resolver.files().begin(), resolver.files().end());
   return {std::move(resolved.values), std::move(resolved.tree), std::move(files)};

@@ -30,6 +30,15 @@ ConfigEntry* ConfigNode::find(const std::string& key) {
   return const_cast<ConfigEntry*>(static_cast<const ConfigNode*>(this)->find(key));
 }
 
+std::optional<ConfigEntry> ConfigNode::take(const std::string& key) {
+  const auto entry =
+      std::find_if(entries.begin(), entries.end(), [&](const ConfigEntry& e) { return e.key == key; });
+  if (entry == entries.end()) return std::nullopt;
+  ConfigEntry taken = std::move(*entry);
+  entries.erase(entry);
+  return taken;
+}
+
 std::size_t count_nodes(const ConfigNode& node) {
   std::size_t count = 1;
   for (const auto& item : node.items) count += count_nodes(item);
@@ -58,6 +67,19 @@ std::string in_quotes(const std::string& text) {
   return shown + "'";
 }
 
+std::string shown(const ConfigNode& node) {
+  switch (node.kind) {
+    case ConfigNode::Kind::null:
+      return "empty";
+    case ConfigNode::Kind::list:
+      return "a list";
+    case ConfigNode::Kind::map:
+      return "a section";
+    default:
+      return (node.quoted ? "the quoted text " : "") + in_quotes(node.text);
+  }
+}
+
 void ConfigErrors::add(const ConfigMark& mark, const std::string& message) {
   std::string line = to_string(mark) + ": " + message;
   const bool known =
@@ -67,6 +89,13 @@ void ConfigErrors::add(const ConfigMark& mark, const std::string& message) {
     errors_.push_back({mark, std::move(line)});
   else
     ++dropped_;
+}
+
+void ConfigErrors::add_unexpected(const ConfigEntry& entry, const std::string& path,
+                                  const std::string& expected) {
+  // An empty value has no place of its own: the parser puts it where the next key begins.
+  const ConfigMark& mark = entry.value.kind == ConfigNode::Kind::scalar ? entry.value.mark : entry.mark;
+  add(mark, fmt::format("{} is {}; expected {}", in_quotes(path), shown(entry.value), expected));
 }
 
 void ConfigErrors::throw_if_any() const {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct ConfigNode {
 
   const ConfigEntry* find(const std::string& key) const;
   ConfigEntry* find(const std::string& key);
+  /// Removes the entry from the map and returns it; empty where there is none.
+  std::optional<ConfigEntry> take(const std::string& key);
 
   Kind kind = Kind::null;
   ConfigMark mark;
@@ -56,11 +59,17 @@ std::size_t count_nodes(const ConfigNode& node);
 /// A scalar as errors show it: in quotes, on one line, and cut where it is long.
 std::string in_quotes(const std::string& text);
 
+/// What a value is, as errors show it: "empty", "a list", "a section", or the scalar itself.
+std::string shown(const ConfigNode& node);
+
 /// Collects the errors of an experiment so that all of them can be reported at once.
 class ConfigErrors {
  public:
   /// An error that is word for word an earlier one is dropped.
   void add(const ConfigMark& mark, const std::string& message);
+
+  /// "'path' is ...; expected ...", at the value where that is a scalar, else at its key.
+  void add_unexpected(const ConfigEntry& entry, const std::string& path, const std::string& expected);
 
   bool empty() const { return errors_.empty(); }
 

@@ -45,6 +45,13 @@ const Parameter* ParameterTable::find(const std::string& name) const {
   return row == rows_.end() ? nullptr : &*row;
 }
 
+bool holds_overrides(const Parameter& row) {
+  if (row.type() == ParameterType::overrides) return true;
+  if (row.type() != ParameterType::group) return false;
+  const auto& rows = row.table().rows();
+  return std::any_of(rows.begin(), rows.end(), holds_overrides);
+}
+
 Parameter boolean(std::string name, std::optional<bool> fallback) {
   Parameter row(std::move(name), ParameterType::boolean);
   if (fallback) row.default_ = *fallback ? "true" : "false";

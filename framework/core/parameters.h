@@ -120,6 +120,9 @@ Parameter words(std::string name);
 Parameter reals(std::string name, std::size_t size,
                 std::optional<std::vector<double>> fallback = std::nullopt);
 
+/// Whether the row is, or somewhere in its group has, a map of overrides.
+bool holds_overrides(const Parameter& row);
+
 /// The checked values of one section of an experiment: every key of the table is there, with its default
 /// where the file is silent. Asking for a name or type that the table does not have is a programming
 /// error and throws std::logic_error.
