@@ -15,7 +15,7 @@ constexpr std::size_t max_shown_length = 80;
 }  // namespace
 
 std::string to_string(const ConfigMark& mark) {
-  if (mark.origin->is_file && mark.line > 0)
+  if (mark.origin->has_lines && mark.line > 0)
     return fmt::format("{}:{}:{}", mark.origin->name, mark.line, mark.column);
   return mark.origin->name;
 }
@@ -37,6 +37,29 @@ std::optional<ConfigEntry> ConfigNode::take(const std::string& key) {
   ConfigEntry taken = std::move(*entry);
   entries.erase(entry);
   return taken;
+}
+
+std::vector<std::string> split_keys(const std::string& path) {
+  std::vector<std::string> keys{""};
+  for (const char letter : path) {
+    if (letter == '.')
+      keys.emplace_back();
+    else
+      keys.back() += letter;
+  }
+  const bool is_good = std::none_of(keys.begin(), keys.end(), [](const auto& key) { return key.empty(); });
+  return is_good ? keys : std::vector<std::string>{};
+}
+
+ConfigNode under_keys(const std::vector<std::string>& keys, const ConfigMark& mark, ConfigNode value) {
+  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+    ConfigNode section;
+    section.kind = ConfigNode::Kind::map;
+    section.mark = mark;
+    section.entries.push_back({*key, mark, std::move(value)});
+    value = std::move(section);
+  }
+  return value;
 }
 
 std::size_t count_nodes(const ConfigNode& node) {

@@ -10,12 +10,13 @@
 
 namespace pliant {
 
-/// What a value was read from: an experiment file or a `--set` of the command line.
+/// What a value was read from: an experiment's file or text, or a `--set` of the command line.
 struct ConfigOrigin {
   std::string name;              ///< as errors show it: the file's path, or "--set a.b"
   std::filesystem::path folder;  ///< where the relative paths that it names start
-  bool is_file = true;
-  int order = 0;  ///< errors are listed in this order of their origins
+  bool has_lines = true;
+  int order = 0;                            ///< errors are listed in this order of their origins
+  std::filesystem::path shown_folder = {};  ///< the folder as errors show it
 };
 
 /// A place in an origin, counted from 1; line 0 means the origin as a whole.
@@ -52,6 +53,12 @@ struct ConfigEntry {
   ConfigMark mark;  ///< of the key
   ConfigNode value;
 };
+
+/// The keys of "a.b.c"; empty when one of them is.
+std::vector<std::string> split_keys(const std::string& path);
+
+/// The sections that lead to `value` by these keys, all of them given at `mark`: {a: {b: value}}.
+ConfigNode under_keys(const std::vector<std::string>& keys, const ConfigMark& mark, ConfigNode value);
 
 /// How many values a node holds, itself included.
 std::size_t count_nodes(const ConfigNode& node);

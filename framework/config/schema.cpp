@@ -72,8 +72,23 @@ class SchemaWriter {
  private:
   ordered_json table(const ParameterTable& table) const {
     ordered_json properties = ordered_json::object();
-    for (const auto& row : table.rows()) properties[row.name()] = property(row);
+    for (const auto& row : table.rows()) {
+      properties[row.name()] = property(row);
+      if (!row.swept_by().empty()) properties[row.swept_by()] = sweep(row);
+    }
     return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  }
+
+  static ordered_json sweep(const Parameter& row) {
+    const ordered_json value = {
+        {"anyOf", ordered_json::array({bare_text(), {{"type", "array"}, {"items", bare_text()}}})}};
+    return {{"description",
+             "Lists of values under dotted keys, such as 'data.noise: [0, 1]'; each combination of "
+             "them becomes one of '" +
+                 row.name() + "'"},
+            {"type", "object"},
+            {"additionalProperties",
+             {{"type", "array"}, {"items", value}, {"minItems", 1}, {"uniqueItems", true}}}};
   }
 
   ordered_json required_keys() const {

@@ -39,6 +39,11 @@ Parameter&& Parameter::optional() && {
   return std::move(*this);
 }
 
+Parameter&& Parameter::swept_by(std::string key) && {
+  swept_by_ = std::move(key);
+  return std::move(*this);
+}
+
 const Parameter* ParameterTable::find(const std::string& name) const {
   const auto row = std::find_if(rows_.begin(), rows_.end(),
                                 [&](const Parameter& candidate) { return candidate.name() == name; });
