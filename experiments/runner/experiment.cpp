@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <string_view>
 
 #include "experiments/datasets/data_source.h"
 #include "experiments/report/report.h"
 #include "framework/config/config_reader.h"
+#include "framework/config/config_sweep.h"
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
 #include "framework/registration/handle.h"
@@ -24,17 +23,10 @@ ParameterTable compare_table() {
   };
 }
 
-/// Whether it may stand in a folder's name on any system, and in a link: ASCII signs that mean something to
-/// either may not.
-bool is_of_name(unsigned char letter) {
-  constexpr std::string_view signs = "_-.+=,()[]@~! ";
-  return letter >= 0x80 || std::isalnum(letter) != 0 || signs.find(static_cast<char>(letter)) != signs.npos;
-}
-
 /// Results are kept in folders of these names, so they must be fit for one.
 void check_name(const std::string& name, const std::string& place, const std::string& what) {
   const bool is_good =
-      !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), is_of_name);
+      !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), is_of_folder_name);
   if (is_good) return;
   throw ConfigError(
       fmt::format("{}: {} '{}' cannot name a folder; expected letters, digits, spaces and the signs "
@@ -42,14 +34,16 @@ void check_name(const std::string& name, const std::string& place, const std::st
                   place, what, name));
 }
 
-/// The name that a file gives: what a folder cannot be named with, or JSON cannot hold, becomes "_".
+/// The name that a file, or the name of a text, gives: what a folder cannot be named with, or JSON cannot
+/// hold, becomes "_".
 std::string name_of(const std::filesystem::path& file) {
   std::string name = file.stem().string();
   const bool is_text = is_utf8(name);
   for (char& letter : name) {
     const auto byte = static_cast<unsigned char>(letter);
-    if (!is_of_name(byte) || (byte >= 0x80 && !is_text)) letter = '_';
+    if (!is_of_folder_name(byte) || (byte >= 0x80 && !is_text)) letter = '_';
   }
+  if (name.empty()) return "_";
   if (name.front() == '.') name.front() = '_';
   return name;
 }
@@ -91,7 +85,7 @@ void check_handles(const ExperimentPlan& plan) {
 /// beside the results is the same experiment.
 void name_experiment(ExperimentPlan& plan, const ConfigSource& source) {
   const Parameters& values = plan.experiment.values;
-  plan.name = values.has("name") ? values.text("name") : name_of(source.file);
+  plan.name = values.has("name") ? values.text("name") : name_of(source.name());
   if (values.has("name")) return;
   nlohmann::ordered_json named = {{"name", plan.name}};
   named.update(plan.experiment.tree);
@@ -113,7 +107,8 @@ ParameterTable experiment_table() {
                      .doc("bend the source by these handles instead of registering it to the target"));
   for (auto& row : method_rows()) rows.push_back(std::move(row));
   rows.push_back(components("reports", Report::kind).optional().doc("what is written about each run"));
-  rows.push_back(overrides("runs").doc("variants that are run instead of the experiment itself"));
+  rows.push_back(
+      overrides("runs").swept_by("sweep").doc("variants that are run instead of the experiment itself"));
   rows.push_back(components("solvers", Solver::kind)
                      .optional()
                      .doc("what `pliant compare` lets solve the first problem of each run"));
@@ -135,7 +130,7 @@ ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& regis
   ExperimentPlan plan;
   plan.experiment = load_experiment(source, experiment_table(), registry);
   name_experiment(plan, source);
-  const std::string file = source.file.string();
+  const std::string file = source.name();
   check_name(plan.name, file, "the experiment's name");
   check_run_names(plan.experiment.values.sections("runs"));
   for (const auto& [name, values] : plan.experiment.values.sections("runs"))

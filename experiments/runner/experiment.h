@@ -19,10 +19,10 @@ struct ExperimentPlan {
   struct Run {
     std::string name;
     Parameters values;  ///< the whole experiment, with the run's own values laid over it
-    std::string place;  ///< where an error of the run came from: its file, and its name when there are more
+    std::string place;  ///< where an error of the run came from: the file or text, and its name if not alone
   };
 
-  std::string name;  ///< of the experiment: its `name`, else the file's
+  std::string name;  ///< of the experiment: its `name`, else that of the file or text
   Experiment experiment;
   std::vector<Run> runs;  ///< at least one
 
@@ -33,7 +33,7 @@ struct ExperimentPlan {
   void keep_quick_runs();
 };
 
-/// Reads an experiment file (see load_experiment). Throws ConfigError with every error of the file, also for
+/// Reads an experiment (see load_experiment). Throws ConfigError with every error of the file, also for
 /// names that cannot name a folder.
 ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& registry);
 

@@ -11,8 +11,10 @@
 #include <fmt/format.h>
 
 #include "framework/config/config_overlay.h"
+#include "framework/config/config_overrides.h"
 #include "framework/config/config_reader.h"
 #include "framework/config/config_resolver.h"
+#include "framework/config/config_sweep.h"
 #include "framework/config/config_tree.h"
 
 namespace pliant {
@@ -25,13 +27,20 @@ using Kind = ConfigNode::Kind;
 constexpr std::size_t max_file_size = std::size_t{1} << 20;
 constexpr int any_line = std::numeric_limits<int>::max();
 
-/// The text of a file, or why there is none.
-struct FileText {
+/// What an experiment is read from, or why it cannot be.
+struct Document {
   std::string text;
   std::string problem;
+  const char* what = "the file";
 };
 
-FileText read_file(const fs::path& file) {
+Document limited(std::string text) {
+  if (text.size() > max_file_size)
+    return {"", fmt::format("more than {} bytes; expected an experiment", max_file_size)};
+  return {std::move(text), ""};
+}
+
+Document read_file(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) return {"", "the file does not exist"};
@@ -41,9 +50,7 @@ FileText read_file(const fs::path& file) {
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!stream.is_open() || stream.bad()) return {"", "the file cannot be read"};
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > max_file_size)
-    return {"", fmt::format("more than {} bytes; expected an experiment", max_file_size)};
-  return {std::move(text), ""};
+  return limited(std::move(text));
 }
 
 /// The one name of a file; the path as it is where the file system cannot say.
@@ -53,7 +60,7 @@ fs::path canonical_name(const fs::path& file) {
   return error ? file : name;
 }
 
-/// Reads a file and, beneath it, those that it extends.
+/// Reads an experiment and, beneath it, the files that it extends.
 class FileLoader {
  public:
   FileLoader(const ConfigOverlay& overlay, std::vector<fs::path> base_folders, ConfigErrors& errors)
@@ -61,44 +68,67 @@ class FileLoader {
 
   /// Empty when the file or one beneath it cannot be used; why is then among the errors.
   std::optional<ConfigNode> load(const fs::path& file) {
-    const auto origin = std::make_shared<const ConfigOrigin>(
-        ConfigOrigin{file.string(), fs::absolute(file).parent_path(), true, static_cast<int>(files_.size())});
+    const auto origin = new_origin(file.string(), fs::absolute(file).parent_path(), file.parent_path());
     return load(file, origin, {origin, 0, 0}, "");
   }
 
+  std::optional<ConfigNode> load(const ConfigText& text) {
+    const auto origin = new_origin(text.name, fs::current_path() / text.folder, text.folder);
+    Document document = limited(text.text);
+    document.what = "the text";
+    auto tree = read(document, origin, {origin, 0, 0}, "");
+    if (!tree) return {};
+    return extended(std::move(*tree), {origin->name, {}});
+  }
+
   const std::vector<fs::path>& files() const { return files_; }
+  /// How many files and texts were named.
+  int origins() const { return origins_; }
 
  private:
+  struct Link {
+    std::string shown;
+    fs::path canonical;  ///< empty for a text, which nothing can extend
+  };
+
+  std::shared_ptr<const ConfigOrigin> new_origin(std::string name, fs::path folder, fs::path shown_folder) {
+    return std::make_shared<const ConfigOrigin>(
+        ConfigOrigin{std::move(name), std::move(folder), true, origins_++, std::move(shown_folder)});
+  }
+
   /// Problems of the file as a whole are told at `named`, where it is named, and begin with `prefix`.
   std::optional<ConfigNode> load(const fs::path& file, const std::shared_ptr<const ConfigOrigin>& origin,
                                  const ConfigMark& named, const std::string& prefix) {
-    FileText read = read_file(file);
-    if (!read.problem.empty()) {
-      errors_.add(named, prefix + read.problem);
-      return {};
-    }
-    auto tree = read_yaml(read.text, origin, errors_);
+    auto tree = read(read_file(file), origin, named, prefix);
     if (!tree) return {};
-    tree->mark = {origin, 1, 1};
-    if (tree->kind == Kind::scalar && report_slip(read.text, any_line, origin, errors_)) return {};
-    if (tree->kind != Kind::map) {
-      errors_.add(tree->mark, std::string(tree->kind == Kind::null ? "the file is empty" : "not a map") +
-                                  "; expected the keys of an experiment");
-      return {};
-    }
     files_.push_back(canonical_name(file));
-    chain_.push_back({origin->name, files_.back()});
-    auto whole = extended(std::move(*tree));
-    chain_.pop_back();
-    return whole;
+    return extended(std::move(*tree), {origin->name, files_.back()});
   }
 
-  std::optional<ConfigNode> extended(ConfigNode tree) {
-    const ConfigEntry* entry = tree.find("extends");
-    if (entry == nullptr) return tree;
-    const ConfigEntry extends = *entry;
-    tree.entries.erase(tree.entries.begin() + (entry - tree.entries.data()));
-    auto base = load_base(extends);
+  std::optional<ConfigNode> read(const Document& document, const std::shared_ptr<const ConfigOrigin>& origin,
+                                 const ConfigMark& named, const std::string& prefix) {
+    if (!document.problem.empty()) {
+      errors_.add(named, prefix + document.problem);
+      return {};
+    }
+    auto tree = read_yaml(document.text, origin, errors_);
+    if (!tree) return {};
+    tree->mark = {origin, 1, 1};
+    if (tree->kind == Kind::scalar && report_slip(document.text, any_line, origin, errors_)) return {};
+    if (tree->kind == Kind::map) return tree;
+    errors_.add(tree->mark, fmt::format("{}; expected the keys of an experiment",
+                                        tree->kind == Kind::null ? document.what + std::string(" is empty")
+                                                                 : "not a map"));
+    return {};
+  }
+
+  /// `tree` laid over what it extends; `link` is what it was read from.
+  std::optional<ConfigNode> extended(ConfigNode tree, Link link) {
+    const auto extends = tree.take("extends");
+    if (!extends) return tree;
+    chain_.push_back(std::move(link));
+    auto base = load_base(*extends);
+    chain_.pop_back();
     if (base) overlay_.lay_over(*base, tree, {});
     return base;
   }
@@ -116,10 +146,8 @@ class FileLoader {
       errors_.add(value.mark, "'extends' goes in a circle: " + chain);
       return {};
     }
-    const fs::path shown =
-        file == beside ? (fs::path(here.name).parent_path() / value.text).lexically_normal() : file;
-    const auto origin = std::make_shared<const ConfigOrigin>(
-        ConfigOrigin{shown.string(), file.parent_path(), true, static_cast<int>(files_.size())});
+    const fs::path shown = file == beside ? (here.shown_folder / value.text).lexically_normal() : file;
+    const auto origin = new_origin(shown.string(), file.parent_path(), shown.parent_path());
     return load(file, origin, value.mark, "cannot extend " + in_quotes(file.string()) + ": ");
   }
 
@@ -144,30 +172,13 @@ class FileLoader {
     return "";
   }
 
-  struct Link {
-    std::string shown;
-    fs::path canonical;
-  };
-
   const ConfigOverlay& overlay_;
   std::vector<fs::path> base_folders_;
   ConfigErrors& errors_;
   std::vector<Link> chain_;
   std::vector<fs::path> files_;  ///< that were read
+  int origins_ = 0;
 };
-
-/// The keys of "a.b.c"; empty when one of them is.
-std::vector<std::string> split_keys(const std::string& path) {
-  std::vector<std::string> keys{""};
-  for (const char letter : path) {
-    if (letter == '.')
-      keys.emplace_back();
-    else
-      keys.back() += letter;
-  }
-  const bool is_good = std::none_of(keys.begin(), keys.end(), [](const auto& key) { return key.empty(); });
-  return is_good ? keys : std::vector<std::string>{};
-}
 
 /// One `--set` as an experiment that gives this one value.
 std::optional<ConfigNode> read_set(const std::string& set, int order, ConfigErrors& errors) {
@@ -188,14 +199,7 @@ std::optional<ConfigNode> read_set(const std::string& set, int order, ConfigErro
   auto value = read_yaml(set.substr(equals + 1), origin, errors);
   if (!value) return {};
   value->mark.origin = origin;
-  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
-    ConfigNode section;
-    section.kind = Kind::map;
-    section.mark = mark;
-    section.entries.push_back({*key, mark, std::move(*value)});
-    value = std::move(section);
-  }
-  return value;
+  return under_keys(keys, mark, std::move(*value));
 }
 
 void lay_sets_over(ConfigNode& tree, const std::vector<std::string>& sets, int order,
@@ -207,6 +211,16 @@ void lay_sets_over(ConfigNode& tree, const std::vector<std::string>& sets, int o
       overlay.lay_over(all, *one, {.fragments = true, .keep_places = false});
   }
   overlay.lay_over(tree, all, {.fragments = false, .keep_places = true});
+}
+
+/// The keys of an experiment file that are gone before the experiment is resolved.
+std::vector<std::string> file_keys(const ParameterTable& root) {
+  std::vector<std::string> keys;
+  for (const auto& row : root.rows()) {
+    if (!row.swept_by().empty()) keys.push_back(row.swept_by());
+  }
+  keys.emplace_back("extends");
+  return keys;
 }
 
 /// Whether YAML takes the bare text for nothing but this text.
@@ -253,6 +267,11 @@ void write_yaml(const ordered_json& map, const std::string& indent, std::string&
 
 }  // namespace
 
+std::string ConfigSource::name() const {
+  if (const auto* text = std::get_if<ConfigText>(&from)) return text->name;
+  return std::get<fs::path>(from).string();
+}
+
 std::string Experiment::to_yaml() const {
   std::string yaml;
   write_yaml(tree, "", yaml);
@@ -263,12 +282,15 @@ Experiment load_experiment(const ConfigSource& source, const ParameterTable& roo
   ConfigErrors errors;
   const ConfigOverlay overlay(root, registry);
   FileLoader loader(overlay, source.base_folders, errors);
-  auto tree = loader.load(source.file);
+  auto tree = std::visit([&](const auto& from) { return loader.load(from); }, source.from);
   if (!tree) errors.throw_if_any();
-  lay_sets_over(*tree, source.sets, static_cast<int>(loader.files().size()), overlay, errors);
+  lay_sets_over(*tree, source.sets, loader.origins(), overlay, errors);
+  expand_sweeps(*tree, root, overlay, errors);
   ConfigResolver resolver(root, registry, source.data_folders, errors);
-  ResolvedSection resolved = resolver.experiment(*tree);
+  ResolvedSection resolved =
+      resolver.experiment(complete_overrides(*tree, root, overlay, errors), file_keys(root));
   errors.throw_if_any();
+  keep_given_overrides(resolved.tree, *tree, root);
   std::vector<fs::path> files = loader.files();
   files.insert(files.end(), resolver.files().begin(), resolver.files().end());
   return {std::move(resolved.values), std::move(resolved.tree), std::move(files)};

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -11,9 +12,16 @@
 
 namespace pliant {
 
+/// An experiment that stands in no file.
+struct ConfigText {
+  std::string text;              ///< in YAML, as a file would hold it
+  std::string name;              ///< of the text, as errors show it in the place of a file's
+  std::filesystem::path folder;  ///< where relative files start that it names, as those beside a file do
+};
+
 /// What an experiment is read from.
 struct ConfigSource {
-  std::filesystem::path file;
+  std::variant<std::filesystem::path, ConfigText> from;  ///< a file, or a text
   /// Values laid over the file, each "a.b.c=value" with the value in YAML, e.g. "solver.type=ceres_lm". A
   /// section that names another component than the file does replaces the file's; all of them together are
   /// one overlay, so their order does not matter.
@@ -24,6 +32,9 @@ struct ConfigSource {
   /// Where a relative file in `extends` is looked for, in this order, when it is not found beside the file
   /// that names it: the folders of methods that come with an installation.
   std::vector<std::filesystem::path> base_folders = {};
+
+  /// The path of the file or the name of the text, as errors show it.
+  std::string name() const;
 };
 
 /// A checked experiment.
@@ -41,9 +52,11 @@ struct Experiment {
   const nlohmann::ordered_json& to_json() const { return tree; }
 };
 
-/// Reads an experiment file strictly against the table `root`. A file may name another one in its top-level
-/// key `extends` (absolute, relative to itself, or else to one of the base folders), over which it is laid:
-/// maps merge, the overlay wins, and a section that names another component replaces the whole section.
+/// Reads an experiment strictly against the table `root`. A file may name another one in its top-level key
+/// `extends` (absolute, relative to itself, or else to one of the base folders), over which it is laid: maps
+/// merge, the overlay wins, and a section that names another component replaces the whole section. Lists
+/// under the key of an `overrides` parameter's sweeps become overrides (see Parameter::swept_by), of which
+/// each is named after its values: "step=2,seed=1".
 ///
 /// Throws one ConfigError that tells everything that is wrong, one line each:
 /// `file:line:column: what is wrong; what was expected; did you mean 'x'?`

@@ -1,12 +1,12 @@
 #include "framework/config/config_resolver.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "framework/config/config_overrides.h"
+#include "framework/config/config_scalar.h"
 #include "framework/core/nearest.h"
 
 namespace pliant {
@@ -15,85 +15,15 @@ namespace {
 using nlohmann::ordered_json;
 using Kind = ConfigNode::Kind;
 
-// How many values all overrides together may have once each is laid over the whole experiment.
-constexpr std::size_t max_override_nodes = 1000000;
-
-std::string shown(const ConfigNode& node) {
-  switch (node.kind) {
-    case Kind::null:
-      return "empty";
-    case Kind::list:
-      return "a list";
-    case Kind::map:
-      return "a section";
-    default:
-      return (node.quoted ? "the quoted text " : "") + in_quotes(node.text);
-  }
+std::vector<std::string> names_of(const ParameterTable& table) {
+  std::vector<std::string> names;
+  for (const auto& row : table.rows()) names.push_back(row.name());
+  return names;
 }
 
 std::string one_of(const std::vector<std::string>& choices) {
   if (choices.empty()) return "none, there is nothing to choose from";
   return fmt::format("{}{}", choices.size() > 1 ? "one of " : "", fmt::join(choices, ", "));
-}
-
-/// The finite number that the whole of `text` spells out.
-template <class Number>
-std::optional<Number> parse_number(const std::string& text) {
-  const char* first = text.data();
-  const char* last = first + text.size();
-  if (first != last && *first == '+') ++first;
-  // What from_chars takes beside digits ("inf", "-nan", and "-" after the "+" above) is no number here.
-  const char* digits = first != last && *first == '-' && first == text.data() ? first + 1 : first;
-  if (digits == last || !(std::isdigit(static_cast<unsigned char>(*digits)) != 0 || *digits == '.'))
-    return {};
-  Number number{};
-  const auto [end, error] = std::from_chars(first, last, number);
-  if (error != std::errc() || end != last) return {};
-  return number;
-}
-
-std::optional<bool> parse_boolean(const std::string& text) {
-  if (text == "true") return true;
-  if (text == "false") return false;
-  return {};
-}
-
-std::string boolean_hint(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  for (const char* word : {"yes", "y", "on", "true", "1"})
-    if (text == word) return "; did you mean 'true'?";
-  for (const char* word : {"no", "n", "off", "false", "0"})
-    if (text == word) return "; did you mean 'false'?";
-  return "";
-}
-
-bool in_range(const Parameter& row, double value) {
-  if (row.lowest() && (row.lowest_excluded() ? value <= *row.lowest() : value < *row.lowest())) return false;
-  return !row.highest() || value <= *row.highest();
-}
-
-/// The scalar that `text` is for this row, or null when it is none or out of range.
-ordered_json typed_scalar(const Parameter& row, const std::string& text) {
-  if (row.type() == ParameterType::boolean) {
-    if (const auto value = parse_boolean(text)) return *value;
-    return nullptr;
-  }
-  if (row.type() == ParameterType::integer) {
-    const auto value = parse_number<std::int64_t>(text);
-    if (value && in_range(row, static_cast<double>(*value))) return *value;
-    return nullptr;
-  }
-  if (row.type() == ParameterType::real) {
-    const auto value = parse_number<double>(text);
-    if (value && in_range(row, *value)) return *value;
-    return nullptr;
-  }
-  if (row.type() == ParameterType::choice) {
-    const auto& choices = row.choices();
-    if (std::find(choices.begin(), choices.end(), text) == choices.end()) return nullptr;
-  }
-  return text;
 }
 
 Parameters::Value typed_value(const std::string& name, const ordered_json& scalar) {
@@ -106,64 +36,19 @@ Parameters::Value typed_value(const std::string& name, const ordered_json& scala
 
 bool takes_quotes(ParameterType type) { return type == ParameterType::text || type == ParameterType::choice; }
 
-/// Of a resolved section, those keys that were given: an override as it is written out again.
-ordered_json given_part(const ordered_json& resolved, const ConfigNode& given) {
-  if (!resolved.is_object()) return resolved;
-  ordered_json part = ordered_json::object();
-  if (given.kind == Kind::scalar) part["type"] = resolved["type"];
-  for (const auto& entry : given.entries) {
-    if (resolved.contains(entry.key)) part[entry.key] = given_part(resolved[entry.key], entry.value);
-  }
-  return part;
-}
-
 }  // namespace
-
-bool holds_overrides(const Parameter& row) {
-  if (row.type() == ParameterType::overrides) return true;
-  if (row.type() != ParameterType::group) return false;
-  const auto& rows = row.table().rows();
-  return std::any_of(rows.begin(), rows.end(), holds_overrides);
-}
-
-std::string range_text(const Parameter& row) {
-  const std::string highest = row.highest() ? fmt::format("{}", *row.highest()) : "";
-  if (!row.lowest()) return highest.empty() ? "" : "at most " + highest;
-  if (row.lowest_excluded())
-    return fmt::format("above {}{}{}", *row.lowest(), highest.empty() ? "" : " and at most ", highest);
-  if (highest.empty()) return fmt::format("at least {}", *row.lowest());
-  return fmt::format("from {} to {}", *row.lowest(), highest);
-}
-
-ordered_json typed_default(const Parameter& row) {
-  if (!row.default_text()) return nullptr;
-  if (row.type() == ParameterType::reals)
-    return ordered_json::parse(*row.default_text()).get<std::vector<double>>();
-  ordered_json value = typed_scalar(row, *row.default_text());
-  if (value.is_null())
-    throw std::logic_error("the default of parameter '" + row.name() + "' is not allowed by its own row");
-  return value;
-}
 
 ConfigResolver::ConfigResolver(const ParameterTable& root, const Registry& registry,
                                std::vector<std::filesystem::path> data_folders, ConfigErrors& errors)
-    : root_(root), registry_(registry), data_folders_(std::move(data_folders)), errors_(errors) {}
+    : root_(root),
+      run_table_(without_overrides(root)),
+      registry_(registry),
+      data_folders_(std::move(data_folders)),
+      errors_(errors) {}
 
-ResolvedSection ConfigResolver::experiment(const ConfigNode& tree) {
-  experiment_ = &tree;
-  return section(&tree, root_, {"", tree.mark}, "", {"extends"});
-}
-
-bool ConfigResolver::is_visible(const Parameter& row) const {
-  return !inside_override_ || !holds_overrides(row);
-}
-
-std::vector<std::string> ConfigResolver::visible_keys(const ParameterTable& table) const {
-  std::vector<std::string> keys;
-  for (const auto& row : table.rows()) {
-    if (is_visible(row)) keys.push_back(row.name());
-  }
-  return keys;
+ResolvedSection ConfigResolver::experiment(const ConfigNode& tree,
+                                           const std::vector<std::string>& other_keys) {
+  return section(&tree, root_, {"", tree.mark}, "", other_keys);
 }
 
 ResolvedSection ConfigResolver::section(const ConfigNode* node, const ParameterTable& table,
@@ -173,7 +58,6 @@ ResolvedSection ConfigResolver::section(const ConfigNode* node, const ParameterT
   if (!component.empty()) result.tree["type"] = component;
   std::vector<Parameters::Value> values;
   for (const auto& row : table.rows()) {
-    if (!is_visible(row)) continue;
     const ConfigEntry* entry = node == nullptr ? nullptr : node->find(row.name());
     MaybeResolved resolved = entry == nullptr ? absent(row, place) : given(row, *entry, place);
     if (!resolved) continue;
@@ -187,7 +71,7 @@ ResolvedSection ConfigResolver::section(const ConfigNode* node, const ParameterT
 
 void ConfigResolver::report_unknown_keys(const ConfigNode& node, const ParameterTable& table,
                                          const Place& place, const std::vector<std::string>& other_keys) {
-  std::vector<std::string> keys = visible_keys(table);
+  std::vector<std::string> keys = names_of(table);
   keys.insert(keys.end(), other_keys.begin(), other_keys.end());
   for (const auto& entry : node.entries) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
@@ -241,7 +125,7 @@ ConfigResolver::MaybeResolved ConfigResolver::given(const Parameter& row, const 
     case ParameterType::components:
       return components(row, entry, place);
     case ParameterType::overrides:
-      return overrides(row, entry, place);
+      return runs(row, entry);
     case ParameterType::group:
       if (entry.value.kind != Kind::map) {
         report(row, entry, place);
@@ -343,8 +227,8 @@ ConfigResolver::MaybeResolved ConfigResolver::reals(const Parameter& row, const 
   std::vector<double> numbers;
   for (const auto& item : node.items) {
     const auto number =
-        item.kind == Kind::scalar && !item.quoted ? parse_number<double>(item.text) : std::nullopt;
-    if (number && in_range(row, *number))
+        item.kind == Kind::scalar && !item.quoted ? number_in_range(row, item.text) : std::nullopt;
+    if (number)
       numbers.push_back(*number);
     else
       errors_.add(item.mark, fmt::format("an item of {} is {}; expected {}", in_quotes(place.key(row.name())),
@@ -378,50 +262,15 @@ ConfigResolver::MaybeResolved ConfigResolver::components(const Parameter& row, c
   return Resolved{{row.name(), std::move(sections)}, std::move(tree)};
 }
 
-ConfigResolver::MaybeResolved ConfigResolver::overrides(const Parameter& row, const ConfigEntry& entry,
-                                                        const Place& place) {
-  if (entry.value.kind != Kind::map) {
-    report(row, entry, place);
-    return {};
-  }
-  const ConfigNode base = without_overrides();
-  if (entry.value.entries.size() * count_nodes(base) > max_override_nodes) {
-    errors_.add(entry.mark, fmt::format("{} has {} entries; expected fewer for an experiment of this size",
-                                        in_quotes(place.key(row.name())), entry.value.entries.size()));
-    return {};
-  }
-  const ConfigOverlay overlay(root_, registry_);
+ConfigResolver::MaybeResolved ConfigResolver::runs(const Parameter& row, const ConfigEntry& entry) {
   Parameters::Sections sections;
   ordered_json tree = ordered_json::object();
-  inside_override_ = true;
-  for (const auto& labelled : entry.value.entries) {
-    if (labelled.value.kind != Kind::map && labelled.value.kind != Kind::null) {
-      errors_.add(labelled.mark,
-                  fmt::format("{} is {}; expected the keys of an experiment that differ",
-                              in_quotes(place.key(row.name()) + "." + labelled.key), shown(labelled.value)));
-      continue;
-    }
-    ConfigNode whole = base;
-    // The places of the base are kept so that an error of its own is the same error here, and told once.
-    overlay.lay_over(whole, labelled.value, {.fragments = false, .keep_places = true});
-    ResolvedSection resolved = section(&whole, root_, {"", whole.mark}, "", {});
-    tree[labelled.key] = given_part(resolved.tree, labelled.value);
-    sections.emplace_back(labelled.key, Parameters("", resolved.values.values(), to_string(labelled.mark)));
+  for (const auto& run : entry.value.entries) {
+    ResolvedSection resolved = section(&run.value, run_table_, {"", run.value.mark}, "", {});
+    tree[run.key] = std::move(resolved.tree);
+    sections.emplace_back(run.key, Parameters("", resolved.values.values(), to_string(run.mark)));
   }
-  inside_override_ = false;
   return Resolved{{row.name(), std::move(sections)}, std::move(tree)};
-}
-
-ConfigNode ConfigResolver::without_overrides() const {
-  ConfigNode base;
-  base.kind = Kind::map;
-  base.mark = experiment_->mark;
-  for (const auto& entry : experiment_->entries) {
-    // A key that the table does not have is left out too: it has been reported for the experiment itself.
-    const Parameter* row = root_.find(entry.key);
-    if (row != nullptr && !holds_overrides(*row)) base.entries.push_back(entry);
-  }
-  return base;
 }
 
 std::optional<ResolvedSection> ConfigResolver::component(const std::string& kind, const ConfigNode& node,
@@ -463,10 +312,7 @@ std::optional<ResolvedSection> ConfigResolver::named_component(const std::string
 
 void ConfigResolver::report(const Parameter& row, const ConfigEntry& entry, const Place& place,
                             const std::string& hint) {
-  // An empty value has no place of its own: the parser puts it where the next key begins.
-  const ConfigMark& mark = entry.value.kind == Kind::scalar ? entry.value.mark : entry.mark;
-  errors_.add(mark, fmt::format("{} is {}; expected {}{}", in_quotes(place.key(row.name())),
-                                shown(entry.value), expected(row), hint));
+  errors_.add_unexpected(entry, place.key(row.name()), expected(row) + hint);
 }
 
 std::string ConfigResolver::expected(const Parameter& row) const {
@@ -491,9 +337,9 @@ std::string ConfigResolver::expected(const Parameter& row) const {
     case ParameterType::components:
       return "a section of labels, each for " + expected_component(row.kind());
     case ParameterType::group:
-      return fmt::format("a section with keys of {}", fmt::join(visible_keys(row.table()), ", "));
+      return fmt::format("a section with keys of {}", fmt::join(names_of(row.table()), ", "));
     case ParameterType::overrides:
-      return "a section with a partial experiment under each name";
+      return expected_overrides;
     case ParameterType::words:
       return "a list of texts";
     case ParameterType::reals:

@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "framework/config/config_overlay.h"
 #include "framework/config/config_tree.h"
 #include "framework/core/registry.h"
 
@@ -27,7 +26,9 @@ class ConfigResolver {
   ConfigResolver(const ParameterTable& root, const Registry& registry,
                  std::vector<std::filesystem::path> data_folders, ConfigErrors& errors);
 
-  ResolvedSection experiment(const ConfigNode& tree);
+  /// The experiment's overrides must be whole experiments already (see complete_overrides). `other_keys` are
+  /// those of a file that have been dealt with before.
+  ResolvedSection experiment(const ConfigNode& tree, const std::vector<std::string>& other_keys);
 
   /// The files that the experiment names, absolute.
   const std::vector<std::filesystem::path>& files() const { return files_; }
@@ -46,8 +47,6 @@ class ConfigResolver {
     std::string key(const std::string& name) const { return path.empty() ? name : path + "." + name; }
   };
 
-  bool is_visible(const Parameter& row) const;
-  std::vector<std::string> visible_keys(const ParameterTable& table) const;
   ResolvedSection section(const ConfigNode* node, const ParameterTable& table, const Place& place,
                           const std::string& component, const std::vector<std::string>& other_keys);
   void report_unknown_keys(const ConfigNode& node, const ParameterTable& table, const Place& place,
@@ -59,8 +58,7 @@ class ConfigResolver {
   MaybeResolved words(const Parameter& row, const ConfigEntry& entry, const Place& place);
   MaybeResolved reals(const Parameter& row, const ConfigEntry& entry, const Place& place);
   MaybeResolved components(const Parameter& row, const ConfigEntry& entry, const Place& place);
-  MaybeResolved overrides(const Parameter& row, const ConfigEntry& entry, const Place& place);
-  ConfigNode without_overrides() const;
+  MaybeResolved runs(const Parameter& row, const ConfigEntry& entry);
   std::optional<ResolvedSection> component(const std::string& kind, const ConfigNode& node,
                                            const Place& place, const std::optional<std::string>& implied);
   std::optional<ResolvedSection> named_component(const std::string& kind, const std::string& name,
@@ -72,21 +70,11 @@ class ConfigResolver {
   std::string expected_component(const std::string& kind) const;
 
   const ParameterTable& root_;
+  const ParameterTable run_table_;  ///< of an experiment that is an override of another
   const Registry& registry_;
   std::vector<std::filesystem::path> data_folders_;
   ConfigErrors& errors_;
   std::vector<std::filesystem::path> files_;
-  const ConfigNode* experiment_ = nullptr;
-  bool inside_override_ = false;
 };
-
-/// Whether the row is, or somewhere in its group has, a map of overrides.
-bool holds_overrides(const Parameter& row);
-
-/// The allowed values in words, e.g. "from 1 to 64", "above 0"; empty where every value is allowed.
-std::string range_text(const Parameter& row);
-
-/// The default of a scalar row with its type; null where it has none.
-nlohmann::ordered_json typed_default(const Parameter& row);
 
 }  // namespace pliant

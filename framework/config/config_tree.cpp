@@ -15,7 +15,7 @@ constexpr std::size_t max_shown_length = 80;
 }  // namespace
 
 std::string to_string(const ConfigMark& mark) {
-  if (mark.origin->is_file && mark.line > 0)
+  if (mark.origin->has_lines && mark.line > 0)
     return fmt::format("{}:{}:{}", mark.origin->name, mark.line, mark.column);
   return mark.origin->name;
 }
@@ -28,6 +28,38 @@ const ConfigEntry* ConfigNode::find(const std::string& key) const {
 
 ConfigEntry* ConfigNode::find(const std::string& key) {
   return const_cast<ConfigEntry*>(static_cast<const ConfigNode*>(this)->find(key));
+}
+
+std::optional<ConfigEntry> ConfigNode::take(const std::string& key) {
+  const auto entry =
+      std::find_if(entries.begin(), entries.end(), [&](const ConfigEntry& e) { return e.key == key; });
+  if (entry == entries.end()) return std::nullopt;
+  ConfigEntry taken = std::move(*entry);
+  entries.erase(entry);
+  return taken;
+}
+
+std::vector<std::string> split_keys(const std::string& path) {
+  std::vector<std::string> keys{""};
+  for (const char letter : path) {
+    if (letter == '.')
+      keys.emplace_back();
+    else
+      keys.back() += letter;
+  }
+  const bool is_good = std::none_of(keys.begin(), keys.end(), [](const auto& key) { return key.empty(); });
+  return is_good ? keys : std::vector<std::string>{};
+}
+
+ConfigNode under_keys(const std::vector<std::string>& keys, const ConfigMark& mark, ConfigNode value) {
+  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+    ConfigNode section;
+    section.kind = ConfigNode::Kind::map;
+    section.mark = mark;
+    section.entries.push_back({*key, mark, std::move(value)});
+    value = std::move(section);
+  }
+  return value;
 }
 
 std::size_t count_nodes(const ConfigNode& node) {
@@ -58,6 +90,19 @@ std::string in_quotes(const std::string& text) {
   return shown + "'";
 }
 
+std::string shown(const ConfigNode& node) {
+  switch (node.kind) {
+    case ConfigNode::Kind::null:
+      return "empty";
+    case ConfigNode::Kind::list:
+      return "a list";
+    case ConfigNode::Kind::map:
+      return "a section";
+    default:
+      return (node.quoted ? "the quoted text " : "") + in_quotes(node.text);
+  }
+}
+
 void ConfigErrors::add(const ConfigMark& mark, const std::string& message) {
   std::string line = to_string(mark) + ": " + message;
   const bool known =
@@ -67,6 +112,13 @@ void ConfigErrors::add(const ConfigMark& mark, const std::string& message) {
     errors_.push_back({mark, std::move(line)});
   else
     ++dropped_;
+}
+
+void ConfigErrors::add_unexpected(const ConfigEntry& entry, const std::string& path,
+                                  const std::string& expected) {
+  // An empty value has no place of its own: the parser puts it where the next key begins.
+  const ConfigMark& mark = entry.value.kind == ConfigNode::Kind::scalar ? entry.value.mark : entry.mark;
+  add(mark, fmt::format("{} is {}; expected {}", in_quotes(path), shown(entry.value), expected));
 }
 
 void ConfigErrors::throw_if_any() const {

@@ -8,7 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "framework/config/config_resolver.h"
+#include "framework/config/config_overrides.h"
+#include "framework/config/config_scalar.h"
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
 
@@ -57,7 +58,7 @@ class SchemaWriter {
   ordered_json write() const {
     ordered_json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                            {"title", "Pliant experiment"}};
-    schema.update(table(root_, false));
+    schema.update(table(root_));
     schema["properties"]["extends"] = {
         {"type", "string"},
         {"description", "Another experiment file that this one is laid over, absolute or relative to it"}};
@@ -69,12 +70,25 @@ class SchemaWriter {
   }
 
  private:
-  ordered_json table(const ParameterTable& table, bool inside_override) const {
+  ordered_json table(const ParameterTable& table) const {
     ordered_json properties = ordered_json::object();
     for (const auto& row : table.rows()) {
-      if (!inside_override || !holds_overrides(row)) properties[row.name()] = property(row);
+      properties[row.name()] = property(row);
+      if (!row.swept_by().empty()) properties[row.swept_by()] = sweep(row);
     }
     return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  }
+
+  static ordered_json sweep(const Parameter& row) {
+    const ordered_json value = {
+        {"anyOf", ordered_json::array({bare_text(), {{"type", "array"}, {"items", bare_text()}}})}};
+    return {{"description",
+             "Lists of values under dotted keys, such as 'data.noise: [0, 1]'; each combination of "
+             "them becomes one of '" +
+                 row.name() + "'"},
+            {"type", "object"},
+            {"additionalProperties",
+             {{"type", "array"}, {"items", value}, {"minItems", 1}, {"uniqueItems", true}}}};
   }
 
   ordered_json required_keys() const {
@@ -116,7 +130,7 @@ class SchemaWriter {
       case ParameterType::choice:
         return {{"enum", row.choices()}};
       case ParameterType::group:
-        return table(row.table(), false);
+        return table(row.table());
       case ParameterType::components:
         return labelled_components(row.kind());
       case ParameterType::overrides:
@@ -159,7 +173,7 @@ class SchemaWriter {
       all[kind] = any_component(kind);
       for (const auto* info : registry_.components(kind)) all[kind + "." + info->name] = one_component(*info);
     }
-    all["override"] = table(root_, true);
+    all["override"] = table(without_overrides(root_));
     return all;
   }
 
@@ -205,7 +219,7 @@ class SchemaWriter {
 
   ordered_json one_component(const ComponentInfo& info) const {
     ordered_json schema = {{"description", info.doc}};
-    schema.update(table(info.parameters, false));
+    schema.update(table(info.parameters));
     schema["properties"]["type"] = {{"const", info.name}, {"description", info.doc}};
     return schema;
   }

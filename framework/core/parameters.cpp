@@ -39,10 +39,22 @@ Parameter&& Parameter::optional() && {
   return std::move(*this);
 }
 
+Parameter&& Parameter::swept_by(std::string key) && {
+  swept_by_ = std::move(key);
+  return std::move(*this);
+}
+
 const Parameter* ParameterTable::find(const std::string& name) const {
   const auto row = std::find_if(rows_.begin(), rows_.end(),
                                 [&](const Parameter& candidate) { return candidate.name() == name; });
   return row == rows_.end() ? nullptr : &*row;
+}
+
+bool holds_overrides(const Parameter& row) {
+  if (row.type() == ParameterType::overrides) return true;
+  if (row.type() != ParameterType::group) return false;
+  const auto& rows = row.table().rows();
+  return std::any_of(rows.begin(), rows.end(), holds_overrides);
 }
 
 Parameter boolean(std::string name, std::optional<bool> fallback) {

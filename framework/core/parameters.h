@@ -42,6 +42,9 @@ class Parameter {
   Parameter&& at_least(double lowest) &&;               ///< of a `components` parameter: so many entries
   Parameter&& above(double lowest) &&;                  ///< the end itself is not allowed
   Parameter&& optional() &&;                            ///< may be absent, and has no default
+  /// Of an `overrides` parameter of the experiment itself: the key beside it under which a file may give
+  /// lists of values instead, whose combinations become overrides.
+  Parameter&& swept_by(std::string key) &&;
 
   const std::string& name() const { return name_; }
   ParameterType type() const { return type_; }
@@ -52,6 +55,8 @@ class Parameter {
   std::optional<double> highest() const { return highest_; }
   bool lowest_excluded() const { return lowest_excluded_; }
   const std::vector<std::string>& choices() const { return choices_; }
+  /// The key of an `overrides` parameter's sweeps; empty where it has none.
+  const std::string& swept_by() const { return swept_by_; }
   /// The kind of components that a `component` or `components` parameter takes.
   const std::string& kind() const { return kind_; }
   /// How many numbers a `reals` parameter takes.
@@ -81,6 +86,7 @@ class Parameter {
   std::string unit_;
   std::string doc_;
   std::string kind_;
+  std::string swept_by_;
   std::vector<std::string> choices_;
   std::shared_ptr<const ParameterTable> table_;  // of a group; shared because the type is incomplete here
   std::optional<std::string> default_;
@@ -119,6 +125,9 @@ Parameter overrides(std::string name);
 Parameter words(std::string name);
 Parameter reals(std::string name, std::size_t size,
                 std::optional<std::vector<double>> fallback = std::nullopt);
+
+/// Whether the row is, or somewhere in its group has, a map of overrides.
+bool holds_overrides(const Parameter& row);
 
 /// The checked values of one section of an experiment: every key of the table is there, with its default
 /// where the file is silent. Asking for a name or type that the table does not have is a programming

@@ -3,17 +3,6 @@
 #include <algorithm>
 
 namespace pliant {
-namespace {
-
-bool holds_overrides(const ParameterTable& table) {
-  return std::any_of(table.rows().begin(), table.rows().end(), [](const Parameter& row) {
-    return row.type() == ParameterType::overrides ||
-           (row.type() == ParameterType::group && holds_overrides(row.table()));
-  });
-}
-
-}  // namespace
-
 std::vector<std::string> Registry::kinds() const {
   std::vector<std::string> kinds;
   for (const auto& entry : entries_) {
@@ -44,7 +33,9 @@ void Registry::insert(ComponentInfo info, std::any factory) {
   if (info.parameters.find("type") != nullptr)
     throw std::logic_error(who + " has a parameter 'type', the key that names the component itself");
   // They lie over the whole experiment, the component's own section included, and would never end.
-  if (holds_overrides(info.parameters)) throw std::logic_error(who + " may not have overrides");
+  const auto& rows = info.parameters.rows();
+  if (std::any_of(rows.begin(), rows.end(), holds_overrides))
+    throw std::logic_error(who + " may not have overrides");
   entries_.push_back(std::make_unique<Entry>(Entry{std::move(info), std::move(factory)}));
 }
 

@@ -91,6 +91,16 @@ TEST_F(Schema, OverridesArePartialExperimentsWithoutOverrides) {
   EXPECT_FALSE(override_.contains("required"));
 }
 
+TEST_F(Schema, SweepsAreListsUnderTheKeyThatTheTableNames) {
+  const ParameterTable table{overrides("variants").swept_by("sweep")};
+  const ordered_json sweep = json_schema(table, registry_)["properties"]["sweep"];
+  EXPECT_EQ(sweep["type"], "object");
+  EXPECT_EQ(sweep["additionalProperties"]["type"], "array");
+  EXPECT_EQ(sweep["additionalProperties"]["minItems"], 1);
+  EXPECT_THAT(sweep["description"], HasSubstr("becomes one of 'variants'"));
+  EXPECT_FALSE(keys_.contains("sweep"));
+}
+
 void collect_references(const ordered_json& value, std::vector<std::string>& references) {
   for (const auto& [key, item] : value.items()) {
     if (key == "$ref") references.push_back(item.get<std::string>());

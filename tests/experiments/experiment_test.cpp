@@ -7,7 +7,9 @@
 namespace pliant::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 class ExperimentTest : public ExperimentFiles {
@@ -51,6 +53,46 @@ TEST_F(ExperimentTest, RunsAreTheWholeExperimentWithTheirValuesLaidOver) {
   EXPECT_EQ(made.runs[1].values.integer("seed"), 7);
 }
 
+TEST_F(ExperimentTest, ASweepMakesARunOfEachCombination) {
+  ExperimentPlan made = plan(
+      "sweep: {seed: [1, 2], energies.rotation.weight: [0.5]}\nruns: {fine: {sampler: {step: 2}}, other: }\n"
+      "quick: ['other,seed=2,weight=0.5']");
+  EXPECT_THAT(run_names(made), ElementsAre("fine,seed=1,weight=0.5", "fine,seed=2,weight=0.5",
+                                           "other,seed=1,weight=0.5", "other,seed=2,weight=0.5"));
+  EXPECT_EQ(made.runs[1].values.integer("seed"), 2);
+  EXPECT_EQ(made.runs[1].values.section("sampler").integer("step"), 2);
+  EXPECT_THAT(made.runs[1].place, EndsWith("small.yaml, run fine,seed=2,weight=0.5"));
+  made.keep_quick_runs();
+  EXPECT_THAT(run_names(made), ElementsAre("other,seed=2,weight=0.5"));
+}
+
+TEST_F(ExperimentTest, ASweepMakesNamesThatCanNameAFolderAndAreNoFileOfAResult) {
+  const ExperimentPlan made = plan("sweep: {device: [a/b, 'c:d', result.json]}");
+  EXPECT_THAT(run_names(made), ElementsAre("device=a_b", "device=c_d", "device=result.json"));
+  EXPECT_THAT(error("runs: {index.html: , ../up: }\nsweep: {seed: [1]}"),
+              HasSubstr("small.yaml:2:23: the run's name '../up,seed=1' cannot name a folder"));
+}
+
+TEST_F(ExperimentTest, AWrongValueOfASweepIsToldWhereItStands) {
+  EXPECT_THAT(error("sweep: {seed: [1, -1], graph.spacng: [2]}"),
+              AllOf(HasSubstr("small.yaml:2:19: 'seed' is '-1'"),
+                    HasSubstr("small.yaml:2:24: unknown key 'spacng' in 'graph'")));
+}
+
+TEST_F(ExperimentTest, FromTextItIsNamedAfterTheText) {
+  plan("");  // writes base.yaml
+  const auto from_text = [&](const std::string& text, const std::string& name) {
+    const ConfigText source{text, name, file("base.yaml").parent_path()};
+    return plan_experiment({source, {}, {}, {PLIANT_EXPERIMENTS}}, registry_);
+  };
+  const ExperimentPlan made = from_text("extends: base.yaml\nseed: 3", "from the editor.yaml");
+  EXPECT_EQ(made.name, "from the editor");
+  EXPECT_EQ(made.runs[0].values.integer("seed"), 3);
+  EXPECT_EQ(made.runs[0].place, "from the editor.yaml");
+  EXPECT_EQ(from_text("extends: base.yaml", "").name, "_");
+  EXPECT_EQ(from_text("extends: base.yaml\nname: own", "text").name, "own");
+}
+
 TEST_F(ExperimentTest, QuickRunsAreThoseListed) {
   ExperimentPlan made = plan("runs: {a: , b: , c: }\nquick: [c, a]");
   made.keep_quick_runs();
@@ -73,7 +115,7 @@ TEST_F(ExperimentTest, NamesThatCannotNameAFolderAreErrors) {
 }
 
 TEST_F(ExperimentTest, ExperimentsThatComeWithTheProjectAreGood) {
-  for (const char* name : {"sheet", "quickstart", "compare_solvers", "edit_handles"}) {
+  for (const char* name : {"sheet", "quickstart", "compare_solvers", "edit_handles", "sheet_sweep"}) {
     const ConfigSource source{std::string(PLIANT_EXPERIMENTS) + "/" + name + ".yaml", {}, {}, {}};
     const ExperimentPlan made = plan_experiment(source, registry_);
     EXPECT_EQ(made.name, name);

@@ -154,6 +154,18 @@ TEST_F(RunnerTest, SeveralRunsGetAFolderEachAndAPageOverAll) {
   EXPECT_NE(text_of("out/index.html").find("coarse/index.html"), std::string::npos);
 }
 
+TEST_F(RunnerTest, TheSweepThatComesWithTheProjectComparesItsCombinations) {
+  const ConfigSource source{std::string(PLIANT_EXPERIMENTS) + "/sheet_sweep.yaml", {}, {}, {}};
+  const ordered_json result = run(plan_experiment(source, registry_), "out");
+  ASSERT_EQ(result["runs"].size(), 6U);
+  EXPECT_EQ(result["runs"][4]["name"], "noise=1,weight=10");
+  EXPECT_TRUE(files_of("out/noise=1,weight=10").contains("registered.ply"));
+  EXPECT_NE(text_of("out/index.html").find("noise=1,weight=10/index.html"), std::string::npos);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_LT(result["runs"][i]["metrics"]["residual_mean"],
+              result["runs"][i + 3]["metrics"]["residual_mean"]);
+}
+
 TEST_F(RunnerTest, ReportsAreThoseOfTheExperiment) {
   write("bare.yaml",
         "data: {type: synthetic_sheet, image_width: 80, image_height: 60, focal_length: 65.6}\n"
