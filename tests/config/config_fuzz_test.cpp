@@ -40,6 +40,28 @@ compare:
         text
 )";
 
+/// The text with one to three of its letters changed, added or taken away.
+std::string mutated(std::string text, std::mt19937& random) {
+  // The letters that mean something to YAML, and some that do not.
+  const std::string letters = ":-{}[],&*#?|>!%@`'\"~ \n\t.019eaZ\\\x01\x7f\xc3\xff";
+  const auto edits = 1 + random() % 3;
+  for (unsigned edit = 0; edit < edits; ++edit) {
+    const auto at = random() % text.size();
+    const char letter = letters[random() % letters.size()];
+    switch (random() % 3) {
+      case 0:
+        text[at] = letter;
+        break;
+      case 1:
+        text.insert(at, 1, letter);
+        break;
+      default:
+        text.erase(at, 1 + random() % 5);
+    }
+  }
+  return text;
+}
+
 class ConfigFuzz : public ToyExperiment {
  protected:
   /// Loads the text; whatever it is, it may only load or be refused with a proper message.
@@ -67,30 +89,21 @@ TEST_F(ConfigFuzz, EveryTruncation) {
 }
 
 TEST_F(ConfigFuzz, MutatedLetters) {
-  // The letters that mean something to YAML, and some that do not.
-  const std::string letters = ":-{}[],&*#?|>!%@`'\"~ \n\t.019eaZ\\\x01\x7f\xc3\xff";
   const std::string text = load(minimal + "metrics: [a, b]\nvariants: {v: {stop: {rounds: 2}}}\n").to_yaml();
   std::mt19937 random(7);
-  for (int round = 0; round < 3000; ++round) {
-    std::string mutated = round % 2 == 0 ? everything : text;
-    const auto edits = 1 + random() % 3;
-    for (unsigned edit = 0; edit < edits; ++edit) {
-      const auto at = random() % mutated.size();
-      const char letter = letters[random() % letters.size()];
-      switch (random() % 3) {
-        case 0:
-          mutated[at] = letter;
-          break;
-        case 1:
-          mutated.insert(at, 1, letter);
-          break;
-        default:
-          mutated.erase(at, 1 + random() % 5);
-      }
-    }
-    feed(mutated);
-  }
+  for (int round = 0; round < 3000; ++round) feed(mutated(round % 2 == 0 ? everything : text, random));
   EXPECT_GT(loaded_, 100);
+  EXPECT_GT(refused_, 100);
+}
+
+TEST_F(ConfigFuzz, MutatedSweeps) {
+  table_ = swept_toy_table();
+  const std::string text = minimal +
+                           "sweep: {stop.rounds: [1, 2], metrics: [[a, b], c], solver: [ceres_lm]}\n"
+                           "variants: {v: {title: x}, w: }\n";
+  std::mt19937 random(13);
+  for (int round = 0; round < 500; ++round) feed(mutated(text, random));
+  EXPECT_GT(loaded_, 10);
   EXPECT_GT(refused_, 100);
 }
 

@@ -14,12 +14,7 @@ using testing::StartsWith;
 /// The toy experiment, whose variants can be swept.
 class Sweep : public ToyExperiment {
  protected:
-  Sweep() {
-    std::vector<Parameter> rows;
-    for (const auto& row : table_.rows())
-      rows.push_back(row.name() == "variants" ? overrides("variants").swept_by("sweep") : row);
-    table_ = ParameterTable(std::move(rows));
-  }
+  Sweep() { table_ = swept_toy_table(); }
 
   Parameters::Sections variants(const std::string& text, const std::vector<std::string>& sets = {}) {
     return load(minimal + text, sets).values.sections("variants");

@@ -62,6 +62,14 @@ ParameterTable toy_table() {
           group("compare", {integer("repeat", 1), overrides("with")})};
 }
 
+ParameterTable swept_toy_table() {
+  const ParameterTable plain = toy_table();
+  std::vector<Parameter> rows;
+  for (const auto& row : plain.rows())
+    rows.push_back(row.name() == "variants" ? overrides("variants").swept_by("sweep") : row);
+  return ParameterTable(std::move(rows));
+}
+
 ToyExperiment::ToyExperiment() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   // Test programs run side by side and on the same machine again and again.

@@ -35,6 +35,9 @@ Registry toy_registry();
 /// An experiment with a row of every type.
 ParameterTable toy_table();
 
+/// The same, whose variants can be swept.
+ParameterTable swept_toy_table();
+
 /// A complete, valid file that says nothing beyond what the toy table asks for.
 inline const std::string minimal = "data: sheet\nenergies: {rotation: {}}\n";
 
