@@ -40,12 +40,20 @@ struct CourseOptions {
   float damping;    ///< least lambda
 };
 
+/// Waits for what is enqueued, and tells whether the solve has ended. Asked after each iteration: the launches
+/// of one that finds the solve ended cost more than the wait.
+inline bool has_ended(const Device& device, const cl::Buffer& status) {
+  cl_int skip = 0;
+  device.read(status, &skip, sizeof(skip));
+  return skip != 0;
+}
+
 /// A Gauss-Newton solve bound to one problem on one device.
 class Course {
  public:
   virtual ~Course() = default;
-  /// Enqueues a whole solve from problem.unknowns() to problem.unknowns(). `status`: status_words zeros,
-  /// which the course fills.
+  /// Enqueues a whole solve from problem.unknowns() to problem.unknowns(), and may wait between its iterations.
+  /// `status`: status_words zeros, which the course fills.
   virtual void enqueue(const cl::Buffer& status) = 0;
   /// Name of the linear solver and, where it was chosen for the user, why.
   virtual std::string description() const = 0;

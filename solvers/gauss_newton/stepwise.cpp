@@ -24,7 +24,8 @@ class StepwiseCourse : public Course {
     equations_.sum_energy(problem_.unknowns().device(device_), status);
     device_.run("energy", begin, 1, 1, status, equations_.energy_partials(),
                 equations_.energy_partial_count(), options_.damping);
-    for (int i = 0; i < options_.max_iterations; ++i) iterate(status);
+    for (int i = 0; i < options_.max_iterations && (i == 0 || !has_ended(device_, status)); ++i)
+      iterate(status);
   }
 
   std::string description() const override { return linear_solver_; }

@@ -315,7 +315,8 @@ class StructuredCourse : public Course {
   void minimise_step_by_step(const cl::Buffer& status) {
     const auto& unknowns = problem_.unknowns().write_device(device_);
     run_course(begin_, status, gradient_, partial_count_, partials_, unknowns, course_);
-    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+    for (int iteration = 0;
+         iteration < options_.max_iterations && (iteration == 0 || !has_ended(device_, status)); ++iteration) {
       // The first time what was evaluated at the start still holds.
       for (auto& term : row_terms_)
         if (!enters_matrix(term.term->energy) && iteration > 0) evaluate("jacobian", term, status);
