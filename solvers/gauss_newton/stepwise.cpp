@@ -1,15 +1,16 @@
 #include "solvers/gauss_newton/stepwise.h"
 
 #include "framework/problem/equation_source.h"
+#include "solvers/gauss_newton/reductions.h"
 #include "solvers/gauss_newton/stepwise.cl.embed.h"
 
 namespace pliant {
 namespace {
 
-class StepwiseCourse : public Course {
+class StepwiseMinimiser : public Minimiser {
  public:
-  StepwiseCourse(Problem& problem, Device& device, const CourseOptions& options, std::string linear_solver,
-                 const MakeStepSolver& make)
+  StepwiseMinimiser(Problem& problem, Device& device, const MinimiserOptions& options,
+                    std::string linear_solver, const MakeStepSolver& make)
       : problem_(problem),
         device_(device),
         options_(options),
@@ -32,7 +33,7 @@ class StepwiseCourse : public Course {
 
  private:
   cl::Kernel kernel(const char* name) {
-    return device_.kernel(embedded::solvers_gauss_newton_stepwise_cl, name);
+    return device_.kernel(with_reductions(embedded::solvers_gauss_newton_stepwise_cl), name);
   }
 
   cl::Kernel transform_kernel(const char* name) {
@@ -73,7 +74,7 @@ class StepwiseCourse : public Course {
 
   Problem& problem_;
   Device& device_;
-  CourseOptions options_;
+  MinimiserOptions options_;
   std::string linear_solver_;
   NormalEquations equations_;
   std::unique_ptr<StepSolver> step_solver_;
@@ -82,9 +83,11 @@ class StepwiseCourse : public Course {
 
 }  // namespace
 
-std::unique_ptr<Course> make_stepwise_course(Problem& problem, Device& device, const CourseOptions& options,
-                                             const std::string& linear_solver, const MakeStepSolver& make) {
-  return std::make_unique<StepwiseCourse>(problem, device, options, linear_solver, make);
+std::unique_ptr<Minimiser> make_stepwise_minimiser(Problem& problem, Device& device,
+                                                   const MinimiserOptions& options,
+                                                   const std::string& linear_solver,
+                                                   const MakeStepSolver& make) {
+  return std::make_unique<StepwiseMinimiser>(problem, device, options, linear_solver, make);
 }
 
 }  // namespace pliant

@@ -176,17 +176,17 @@ class Counted : public StepSolver {
   int& count_;
 };
 
-TEST_F(SolverTest, AStepwiseCourseLaunchesNothingOnceItHasEnded) {
+TEST_F(SolverTest, AStepwiseMinimiserLaunchesNothingOnceItHasEnded) {
   auto problem = sheet_problem({.nodes = 9, .constraints = 60});
   int systems = 0;
-  const auto course = make_stepwise_course(
+  const auto minimiser = make_stepwise_minimiser(
       problem, device_, {.max_iterations = most_iterations, .tolerance = 1e-6F, .damping = 1e-6F}, "counted",
       [&](NormalEquations& equations) {
         return std::make_unique<Counted>(make_dense_cholesky_steps(equations), systems);
       });
   std::vector<cl_int> words(status_words);
   const auto status = device_.upload(words);
-  course->enqueue(status);
+  minimiser->enqueue(status);
   device_.read(status, words.data(), sizeof(cl_int) * words.size());
   EXPECT_EQ(words[status_termination], termination_converged);
   EXPECT_EQ(systems, words[status_iterations]);
