@@ -25,36 +25,41 @@ double distance(const Unknowns& a, const Unknowns& b) {
   return std::sqrt(sum);
 }
 
+struct Limits {
+  double agreement = 1e-4;  ///< of the way from the start
+  double tolerance = 1e-6;  ///< of the minimisation
+  int iterations = 20;
+};
+
 class StructuredIterations : public SolverTest {
  protected:
-  static constexpr int kMost = 20;
-
-  SolverSummary solve_up_to(Problem& problem, int iterations) {
-    return solve(problem, "{type: gauss_newton, linear_solver: structured, tolerance: 1e-6, damping: 1e-6, " +
-                              ("max_iterations: " + std::to_string(iterations) + "}"));
+  SolverSummary solve_up_to(Problem& problem, const Limits& limits, int iterations) {
+    testing::Message yaml;
+    yaml << "{type: gauss_newton, linear_solver: structured, damping: 1e-6, tolerance: " << limits.tolerance
+         << ", max_iterations: " << iterations << "}";
+    return solve(problem, yaml.GetString());
   }
 
-  /// To `tolerance` times the way from the start: what the condition of the problem makes of single precision
-  /// (measured: a tenth of it). It may tip the scales for one iteration of the linear solver. Returns how
-  /// many steps were rejected.
-  int expect_same_iterates(const MakeProblem& make, double tolerance = 1e-4) {
+  /// To what the condition of the problem makes of single precision (measured: a tenth of `agreement`). It
+  /// may tip the scales for one iteration of the linear solver. Returns how many steps were rejected.
+  int expect_same_iterates(const MakeProblem& make, const Limits& limits = {}) {
     auto followed = make();
     const Unknowns start = followed.unknowns().host();
-    ReferenceMinimiser reference(followed, kMost, 1e-6, 1e-6);
+    ReferenceMinimiser reference(followed, limits.iterations, limits.tolerance, 1e-6);
     const double initial = reference.energy();
     int rejected = 0;
-    for (int iterations = 1; iterations <= kMost && reference.termination() == 0; ++iterations) {
+    for (int iterations = 1; iterations <= limits.iterations && reference.termination() == 0; ++iterations) {
       SCOPED_TRACE(testing::Message() << "after " << iterations << " iterations");
       const double before = reference.energy();
       reference.iterate();
       rejected += static_cast<int>(reference.energy() == before);
       auto problem = make();
-      const auto summary = solve_up_to(problem, iterations);
+      const auto summary = solve_up_to(problem, limits, iterations);
       const auto &found = problem.unknowns().host(), &expected = followed.unknowns().host();
       EXPECT_EQ(summary.iterations, reference.iterations());
       EXPECT_NEAR(summary.linear_iterations, reference.linear_iterations(), 1);
       EXPECT_NEAR(summary.final_energy, reference.energy(), 5e-7 * initial);
-      EXPECT_LT(distance(found, expected), tolerance * distance(expected, start));
+      EXPECT_LT(distance(found, expected), limits.agreement * distance(expected, start));
     }
     EXPECT_NE(reference.termination(), 0);
     return rejected;
@@ -94,6 +99,14 @@ TEST_F(StructuredIterations, OfRobustLosses) {
   }
 }
 
+// Then the noise estimate alone ends a step's conjugate gradients. Later iterations follow rounding errors.
+TEST_F(StructuredIterations, DownToTheNoise) {
+  for (const auto& [seed, iterations] : {std::pair(1U, 4), std::pair(3U, 5)})
+    expect_same_iterates(
+        [seed = seed, this] { return sheet_problem({.nodes = 18, .constraints = 150, .seed = seed}); },
+        {.tolerance = 0, .iterations = iterations});
+}
+
 TEST_F(StructuredIterations, FromFarOff) {
   expect_same_iterates(
       [&] {
@@ -101,7 +114,7 @@ TEST_F(StructuredIterations, FromFarOff) {
         randomise_unknowns(problem, 1.5, 100, 1);
         return problem;
       },
-      1e-3);
+      {.agreement = 1e-3});
 }
 
 }  // namespace
