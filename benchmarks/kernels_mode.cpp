@@ -96,8 +96,8 @@ std::map<std::string, Work> structured_work(const Problem& problem, const Solver
   const double node_vectors = 12 * 4 * n.nodes;
   const double steps = summary.iterations + 1, linear = summary.linear_iterations;
   return {
-      {"arms_of_constraints", {7 * n.slots * n.constraints, n.constraints * (12 + 24 * n.slots)}},
-      {"arms_regularization", {3 * n.edges, 40 * n.edges}},
+      {"lever_arms_of_constraints", {7 * n.slots * n.constraints, n.constraints * (12 + 24 * n.slots)}},
+      {"lever_arms_regularization", {3 * n.edges, 40 * n.edges}},
       // Twice: at the start and at the end.
       {"evaluate_constraint",
        {2 * n.constraints * (24 * n.slots + 15), 2 * n.constraints * (44 + 20 * n.slots)}},

@@ -75,7 +75,8 @@ Parameters with_defaults(const Registry& registry, const std::string& kind, cons
       values.push_back(*found);
       continue;
     }
-    const std::string& text = row.default_text().value();
+    if (!row.default_text()) continue;  // optional, and not given
+    const std::string& text = *row.default_text();
     if (row.type() == ParameterType::integer)
       values.push_back({row.name(), static_cast<std::int64_t>(std::stoll(text))});
     else if (row.type() == ParameterType::real)

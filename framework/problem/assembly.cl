@@ -59,18 +59,18 @@ kernel void mv_edges(global const int* status, int node_count, int residuals, gl
   }
 }
 
-// A constraint's part of block (a, b) is (v_a v_b^T) (x) W with the arms v of its slots: the sixteen products
-// v_a v_b^T are one vector, and W has six distinct entries.
+// A constraint's part of block (a, b) is (v_a v_b^T) (x) W with the lever_arms v of its slots: the sixteen
+// products v_a v_b^T are one vector, and W has six distinct entries.
 kernel void mm_constraints(global const int* status, int block_count, int per_point, global const int* starts,
-                           global const uint* entries, global const float* normal, global const float4* arms,
-                           global float* blocks) {
+                           global const uint* entries, global const float* normal,
+                           global const float4* lever_arms, global float* blocks) {
   const int block = get_global_id(0);
   if (status[0] || block >= block_count || starts[block] == starts[block + 1]) return;
   float16 xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   for (int e = starts[block]; e < starts[block + 1]; ++e) {
     const uint i = entries[e] / (SLOTS * SLOTS);
-    const float4 row = arms[i * per_point + entries[e] / SLOTS % SLOTS];
-    const float16 products = SPREAD(row) * TILED(arms[i * per_point + entries[e] % SLOTS]);
+    const float4 row = lever_arms[i * per_point + entries[e] / SLOTS % SLOTS];
+    const float16 products = SPREAD(row) * TILED(lever_arms[i * per_point + entries[e] % SLOTS]);
     xx += normal[9 * i] * products;
     xy += normal[9 * i + 1] * products;
     xz += normal[9 * i + 2] * products;
@@ -98,20 +98,20 @@ kernel void mm_constraints(global const int* status, int block_count, int per_po
 }
 
 kernel void mv_constraints(global const int* status, int node_count, int per_point, global const int* starts,
-                           global const uint* entries, global const float* normal, global const float4* arms,
-                           global float* gradient) {
+                           global const uint* entries, global const float* normal,
+                           global const float4* lever_arms, global float* gradient) {
   const int node = get_global_id(0);
   if (status[0] || node >= node_count) return;
   float3 sum[4];
   for (int c = 0; c < 4; ++c) sum[c] = vload3(4 * node + c, gradient);
   for (int e = starts[node]; e < starts[node + 1]; ++e) {
     const uint i = entries[e] / SLOTS;
-    const float4 arm = arms[i * per_point + entries[e] % SLOTS];
+    const float4 lever_arm = lever_arms[i * per_point + entries[e] % SLOTS];
     const float3 force = vload3(0, normal + 9 * i + 6);
-    sum[0] += arm.x * force;
-    sum[1] += arm.y * force;
-    sum[2] += arm.z * force;
-    sum[3] += arm.w * force;
+    sum[0] += lever_arm.x * force;
+    sum[1] += lever_arm.y * force;
+    sum[2] += lever_arm.z * force;
+    sum[3] += lever_arm.w * force;
   }
   for (int c = 0; c < 4; ++c) vstore3(sum[c], 4 * node + c, gradient);
 }

@@ -1,6 +1,6 @@
 // Evaluation of one energy on its stencil. The text is compiled once per energy, after its equation.h:
 // NAME_RESIDUAL and NAME_JACOBIAN are the equation's functions, KERNEL(x) names the kernels after the
-// energy, ROWS is the length of its residual.
+// energy, RESIDUALS is the length of its residual.
 //
 // evaluate_*: residual and Jacobian, scaled by the root of weight * confidence.
 // energy_*: the sum of weight * rho(|r|^2) over CHUNK instances per work-item, in order: no atomics.
@@ -17,9 +17,10 @@ void displacement(float* u, int i, int per_point, global const float* points, gl
   float3 sum = 0;
   for (int slot = i * per_point; slot < (i + 1) * per_point; ++slot) {
     const int node = nodes[slot];
-    const float3 arm = p - vload3(node, node_points);
-    sum += weights[slot] * (arm.x * vload3(4 * node, affine) + arm.y * vload3(4 * node + 1, affine) +
-                            arm.z * vload3(4 * node + 2, affine) + vload3(4 * node + 3, affine));
+    const float3 lever_arm = p - vload3(node, node_points);
+    sum +=
+        weights[slot] * (lever_arm.x * vload3(4 * node, affine) + lever_arm.y * vload3(4 * node + 1, affine) +
+                         lever_arm.z * vload3(4 * node + 2, affine) + vload3(4 * node + 3, affine));
   }
   u[0] = sum.x;
   u[1] = sum.y;
@@ -52,19 +53,19 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
                              global float* gradient) {
   const int i = get_global_id(0);
   if (status[0] || i >= count) return;
-  float u[12], r[ROWS], J[ROWS * 12];
+  float u[12], r[RESIDUALS], J[RESIDUALS * 12];
   load_node(u, i, affine);
   NAME_RESIDUAL(u, u, r);
   NAME_JACOBIAN(u, u, J);
-  weight *= LOSS_WEIGHT(squared(r, ROWS), loss_scale);
+  weight *= LOSS_WEIGHT(squared(r, RESIDUALS), loss_scale);
   global float* block = blocks + 144 * diagonal[i];
   for (int a = 0; a < 12; ++a) {
     float sum = 0;
-    for (int row = 0; row < ROWS; ++row) sum += J[12 * row + a] * r[row];
+    for (int row = 0; row < RESIDUALS; ++row) sum += J[12 * row + a] * r[row];
     gradient[12 * i + a] += weight * sum;
     for (int b = 0; b < 12; ++b) {
       float product = 0;
-      for (int row = 0; row < ROWS; ++row) product += J[12 * row + a] * J[12 * row + b];
+      for (int row = 0; row < RESIDUALS; ++row) product += J[12 * row + a] * J[12 * row + b];
       block[12 * a + b] += weight * product;
     }
   }
@@ -76,29 +77,29 @@ kernel void KERNEL(energy)(global const int* status, int count, float weight, fl
   if (status[0] || first >= count) return;
   float sum = 0;
   for (int i = first; i < min(first + CHUNK, count); ++i) {
-    float u[12], r[ROWS];
+    float u[12], r[RESIDUALS];
     load_node(u, i, affine);
     NAME_RESIDUAL(u, u, r);
-    sum += LOSS_VALUE(squared(r, ROWS), loss_scale);
+    sum += LOSS_VALUE(squared(r, RESIDUALS), loss_scale);
   }
   partials[first_partial + get_global_id(0)] = weight * sum;
 }
 
 #elif defined(PER_EDGE)
 
-// Keeps per edge the Jacobian (ROWS x 24) and, behind it, the residual (ROWS).
+// Keeps per edge the Jacobian (RESIDUALS x 24) and, behind it, the residual (RESIDUALS).
 kernel void KERNEL(evaluate)(global const int* status, int count, float weight, global const float* affine,
                              global const float* node_points, global const int* edges, global float* rows) {
   const int i = get_global_id(0);
   if (status[0] || i >= count) return;
-  float u[24], data[3], r[ROWS], J[ROWS * 24];
+  float u[24], data[3], r[RESIDUALS], J[RESIDUALS * 24];
   load_edge(u, data, edges[2 * i], edges[2 * i + 1], node_points, affine);
   NAME_RESIDUAL(u, data, r);
   NAME_JACOBIAN(u, data, J);
   const float scale = sqrt(weight);
-  global float* row = rows + i * ROWS * 25;
-  for (int entry = 0; entry < ROWS * 24; ++entry) row[entry] = scale * J[entry];
-  for (int entry = 0; entry < ROWS; ++entry) row[ROWS * 24 + entry] = scale * r[entry];
+  global float* row = rows + i * RESIDUALS * 25;
+  for (int entry = 0; entry < RESIDUALS * 24; ++entry) row[entry] = scale * J[entry];
+  for (int entry = 0; entry < RESIDUALS; ++entry) row[RESIDUALS * 24 + entry] = scale * r[entry];
 }
 
 kernel void KERNEL(energy)(global const int* status, int count, float weight, global const float* affine,
@@ -108,10 +109,10 @@ kernel void KERNEL(energy)(global const int* status, int count, float weight, gl
   if (status[0] || first >= count) return;
   float sum = 0;
   for (int i = first; i < min(first + CHUNK, count); ++i) {
-    float u[24], data[3], r[ROWS];
+    float u[24], data[3], r[RESIDUALS];
     load_edge(u, data, edges[2 * i], edges[2 * i + 1], node_points, affine);
     NAME_RESIDUAL(u, data, r);
-    sum += squared(r, ROWS);
+    sum += squared(r, RESIDUALS);
   }
   partials[first_partial + get_global_id(0)] = weight * sum;
 }
@@ -128,26 +129,26 @@ kernel void KERNEL(evaluate)(global const int* status, int count, float weight, 
   const int i = get_global_id(0);
   if (status[0] || i >= count) return;
   global float* out = normal + 9 * i;
-  if (!(weight * confidence[i] > 0)) {  // not in force: what stands in data may be anything
+  if (!(weight * confidence[i] > 0)) {  // inactive: what stands in data may be anything
     for (int entry = 0; entry < 9; ++entry) out[entry] = 0;
     return;
   }
-  float u[3], given[6], r[ROWS], J[ROWS * 3];
+  float u[3], given[6], r[RESIDUALS], J[RESIDUALS * 3];
   displacement(u, i, per_point, points, nodes, weights, node_points, affine);
   for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
   NAME_RESIDUAL(u, given, r);
   NAME_JACOBIAN(u, given, J);
-  const float factor = weight * confidence[i] * LOSS_WEIGHT(squared(r, ROWS), loss_scale);
+  const float factor = weight * confidence[i] * LOSS_WEIGHT(squared(r, RESIDUALS), loss_scale);
   for (int a = 0; a < 3; ++a) {
     float sum = 0;
-    for (int row = 0; row < ROWS; ++row) sum += J[3 * row + a] * r[row];
+    for (int row = 0; row < RESIDUALS; ++row) sum += J[3 * row + a] * r[row];
     out[6 + a] = factor * sum;
   }
   int entry = 0;
   for (int a = 0; a < 3; ++a)
     for (int b = a; b < 3; ++b) {
       float sum = 0;
-      for (int row = 0; row < ROWS; ++row) sum += J[3 * row + a] * J[3 * row + b];
+      for (int row = 0; row < RESIDUALS; ++row) sum += J[3 * row + a] * J[3 * row + b];
       out[entry++] = factor * sum;
     }
 }
@@ -162,11 +163,11 @@ kernel void KERNEL(energy)(global const int* status, int count, float weight, fl
   float sum = 0;
   for (int i = first; i < min(first + CHUNK, count); ++i) {
     if (confidence[i] <= 0) continue;
-    float u[3], given[6], r[ROWS];
+    float u[3], given[6], r[RESIDUALS];
     displacement(u, i, per_point, points, nodes, weights, node_points, affine);
     for (int entry = 0; entry < 6; ++entry) given[entry] = data[6 * i + entry];
     NAME_RESIDUAL(u, given, r);
-    sum += confidence[i] * LOSS_VALUE(squared(r, ROWS), loss_scale);
+    sum += confidence[i] * LOSS_VALUE(squared(r, RESIDUALS), loss_scale);
   }
   partials[first_partial + get_global_id(0)] = weight * sum;
 }

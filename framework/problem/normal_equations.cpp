@@ -25,7 +25,7 @@ const char* stencil_macro(Stencil stencil) {
 
 std::string evaluation_source(const Energy& energy) {
   return fmt::format(
-      "{0}\n{5}\n#define {2}\n#define ROWS {3}\n"
+      "{0}\n{5}\n#define {2}\n#define RESIDUALS {3}\n"
       "#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define KERNEL(x) "
       "x##_{1}\n{4}",
       equation_source(energy, "float"), energy.equation.name, stencil_macro(energy.stencil), energy.residuals,
@@ -41,7 +41,7 @@ struct NormalEquations::Kind {
   NodeLists lists;
   Array<int> matrix_starts, matrix_entries;
   Array<int> gradient_starts, gradient_entries;
-  cl::Buffer arms;  ///< of constraints
+  cl::Buffer lever_arms;  ///< of constraints
 };
 
 struct NormalEquations::TermKernels {
@@ -134,8 +134,9 @@ NormalEquations::Kind& NormalEquations::kind_of(const Constraints* constraints) 
                         : Incidences{constraints->influences.per_point, constraints->influences.nodes.host()};
   made.lists = list_by_node(made.incidences, node_count());
   if (constraints != nullptr) {
-    made.arms = device_->allocate(4 * sizeof(float) * made.incidences.nodes.size());
-    compute_arms(*device_, *constraints, problem_->node_points(), 0, made.incidences.per_instance, made.arms);
+    made.lever_arms = device_->allocate(4 * sizeof(float) * made.incidences.nodes.size());
+    compute_lever_arms(*device_, *constraints, problem_->node_points(), 0, made.incidences.per_instance,
+                       made.lever_arms);
   }
   return made;
 }
@@ -204,10 +205,10 @@ void NormalEquations::assemble_term(TermKernels& term, const cl::Buffer& status)
                  constraints.confidence.device(device), term.rows);
       device.run("mm", term.gather_matrix, block_rows_.size(), group_size, status, block_count(), k,
                  kind->matrix_starts.device(device), kind->matrix_entries.device(device), term.rows,
-                 kind->arms, blocks_);
+                 kind->lever_arms, blocks_);
       device.run("mv", term.gather_gradient, static_cast<std::size_t>(nodes), group_size, status, nodes, k,
                  kind->gradient_starts.device(device), kind->gradient_entries.device(device), term.rows,
-                 kind->arms, gradient_);
+                 kind->lever_arms, gradient_);
       break;
     }
   }

@@ -9,7 +9,7 @@ namespace pliant {
 
 /// J^T J and J^T r of a problem on the device, by the numbers that its transform leaves free, the matrix as
 /// the blocks of its lower triangle that are not zero by structure. Everything is enqueued, nothing waits.
-/// Kernels do nothing while word 0 of `status` is not zero, so that a finished solve costs launches only.
+/// Kernels do nothing while word 0 of `status` is not zero: the solve has ended.
 class NormalEquations {
  public:
   /// `problem` and `device` must outlive this; the problem's structure is fixed from here on; weights,

@@ -17,7 +17,7 @@ struct Constraints {
   Array<float> points;      ///< x y z of each constrained point p at rest, mm
   Influences influences;    ///< of each constrained point
   Array<float> data;        ///< 6 per constraint: q - p, then the target's unit normal at q
-  Array<float> confidence;  ///< 0 (not in force) or above; factor of the squared residual
+  Array<float> confidence;  ///< 0 (inactive) or above; factor of the squared residual
 
   std::size_t size() const { return points.size() / 3; }
 };

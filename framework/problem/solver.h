@@ -31,7 +31,8 @@ struct SolverSummary {
 class BoundSolver {
  public:
   virtual ~BoundSolver() = default;
-  /// Minimises from problem.unknowns() and leaves the solution there. A device solver only enqueues.
+  /// Minimises from problem.unknowns() and leaves the solution there. A device solver enqueues, and waits
+  /// only between iterations, to launch none in vain; not for the last.
   virtual void solve() = 0;
   /// Waits, and tells of every solve since binding.
   virtual std::vector<SolverSummary> summaries() = 0;

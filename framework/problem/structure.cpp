@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
-#include "framework/problem/arms.cl.embed.h"
+#include "framework/problem/lever_arms.cl.embed.h"
 
 namespace pliant {
 
@@ -137,14 +137,14 @@ LowerBlocks find_lower_blocks(const std::vector<const Incidences*>& incidences,
   return blocks;
 }
 
-void compute_arms(Device& device, const Constraints& constraints, const Array<float>& node_points, int first,
-                  int per_instance, const cl::Buffer& arms) {
-  auto kernel = device.kernel(embedded::framework_problem_arms_cl, "arms_of_constraints");
+void compute_lever_arms(Device& device, const Constraints& constraints, const Array<float>& node_points,
+                        int first, int per_instance, const cl::Buffer& lever_arms) {
+  auto kernel = device.kernel(embedded::framework_problem_lever_arms_cl, "lever_arms_of_constraints");
   const auto& influences = constraints.influences;
   device.run("weights", kernel, constraints.size(), 64, constraints.points.device(device),
              static_cast<cl_int>(constraints.size()), static_cast<cl_int>(influences.per_point),
              influences.nodes.device(device), influences.weights.device(device), node_points.device(device),
-             static_cast<cl_int>(first), static_cast<cl_int>(per_instance), arms);
+             static_cast<cl_int>(first), static_cast<cl_int>(per_instance), lever_arms);
 }
 
 Incidences edge_incidences(const DeformationGraph& graph) {

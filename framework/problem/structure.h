@@ -57,9 +57,10 @@ LowerBlocks find_lower_blocks(const std::vector<const Incidences*>& incidences,
 /// What the edges of a graph look at: `from`, then `to`.
 Incidences edge_incidences(const DeformationGraph& graph);
 
-/// Writes the arms of constraints into `arms`, from instance `first` on, `per_instance` float4 an instance:
-/// for each slot w (p - g, 1), by which the rows of the node's [D | t] move the point; empty slots get zeros.
-void compute_arms(Device& device, const Constraints& constraints, const Array<float>& node_points, int first,
-                  int per_instance, const cl::Buffer& arms);
+/// Writes the lever_arms of constraints into `lever_arms`, from instance `first` on, `per_instance` float4 an
+/// instance: for each slot w (p - g, 1), by which the rows of the node's [D | t] move the point; empty slots
+/// get zeros.
+void compute_lever_arms(Device& device, const Constraints& constraints, const Array<float>& node_points,
+                        int first, int per_instance, const cl::Buffer& lever_arms);
 
 }  // namespace pliant

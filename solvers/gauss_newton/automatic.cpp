@@ -8,16 +8,16 @@
 namespace pliant {
 namespace {
 
-/// Another course that also says why it was taken.
-class ChosenCourse : public Course {
+/// Another minimiser that also says why it was taken.
+class ChosenMinimiser : public Minimiser {
  public:
-  ChosenCourse(std::unique_ptr<Course> course, std::string reason)
-      : course_(std::move(course)), reason_(std::move(reason)) {}
-  void enqueue(const cl::Buffer& status) override { course_->enqueue(status); }
-  std::string description() const override { return course_->description() + ": " + reason_; }
+  ChosenMinimiser(std::unique_ptr<Minimiser> minimiser, std::string reason)
+      : minimiser_(std::move(minimiser)), reason_(std::move(reason)) {}
+  void enqueue(const cl::Buffer& status) override { minimiser_->enqueue(status); }
+  std::string description() const override { return minimiser_->description() + ": " + reason_; }
 
  private:
-  std::unique_ptr<Course> course_;
+  std::unique_ptr<Minimiser> minimiser_;
   std::string reason_;
 };
 
@@ -26,11 +26,11 @@ class Automatic : public LinearSolver {
   Automatic(std::unique_ptr<LinearSolver> structured, std::unique_ptr<LinearSolver> general)
       : structured_(std::move(structured)), general_(std::move(general)) {}
 
-  std::unique_ptr<Course> bind(Problem& problem, Device& device,
-                               const CourseOptions& options) const override {
+  std::unique_ptr<Minimiser> bind(Problem& problem, Device& device,
+                                  const MinimiserOptions& options) const override {
     const auto obstacle = structured_obstacle(problem);
     const auto& chosen = obstacle.empty() ? structured_ : general_;
-    return std::make_unique<ChosenCourse>(
+    return std::make_unique<ChosenMinimiser>(
         chosen->bind(problem, device, options),
         obstacle.empty() ? "no energy couples the axes of neighbouring nodes" : obstacle);
   }

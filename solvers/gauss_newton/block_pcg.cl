@@ -5,13 +5,6 @@
 // 4 g .. 4 g + 3 and columns 4 h .. 4 h + 3, entry 4 d + c = block[4 g + c][4 h + d]: with four numbers x of
 // a vector spread as xxxxyyyyzzzzwwww the lanes hold products, to be added up over d once per row.
 
-#if LANES == 1
-#define SYNC
-#else
-#define SYNC barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
-#endif
-#define FOR_EACH(i, count) for (int i = get_local_id(0); i < (count); i += LANES)
-
 #define SPREAD(row) (row).xxxxyyyyzzzzwwww
 #define TILES (GROUPS * GROUPS)
 #define SIDE (4 * GROUPS)
@@ -85,23 +78,6 @@ kernel void invert_diagonals(global const int* status, int node_count, global co
                                                           vload4(g, a[4 * h + 2]), vload4(g, a[4 * h + 3]));
 }
 
-float total(float4 part, local float* scratch) {
-  const float sum = (part.x + part.y) + (part.z + part.w);
-#if LANES == 1
-  return sum;
-#else
-  scratch[get_local_id(0)] = sum;
-  for (int others = LANES / 2; others > 0; others /= 2) {
-    SYNC;
-    if (get_local_id(0) < others) scratch[get_local_id(0)] += scratch[get_local_id(0) + others];
-  }
-  SYNC;
-  const float all = scratch[0];
-  SYNC;
-  return all;
-#endif
-}
-
 // y += block * x, the sums over d still open.
 static inline void multiply(global const float16* block, global const float4* x, float16* y) {
 #pragma unroll
@@ -115,11 +91,11 @@ static inline void multiply(global const float16* block, global const float4* x,
 
 // vectors: residual, direction, product, each GROUPS float4 a node. One work-group; adds its iterations to
 // status[9] and sets status[1] when there is no solution.
-kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
+kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void solve(
     global int* status, int node_count, global const int* starts, global const int* columns,
     global const float16* rows, global const float16* inverses, global const float4* gradient,
     global float4* vectors, global float4* step) {
-  local float scratch[LANES];
+  local float scratch[GROUP_SIZE];
   if (status[0]) return;
   global float4* residual = vectors;
   global float4* direction = residual + GROUPS * node_count;
@@ -136,7 +112,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
       part += residual[GROUPS * node + g] * direction[GROUPS * node + g];
     }
   }
-  float rz = total(part, scratch);
+  float rz = group_sum(sum4(part), scratch);
   const float enough = RELATIVE * RELATIVE * rz;
   int iteration = 0, failed = !isfinite(rz);
   while (rz > enough && !failed && iteration < SIDE * node_count) {
@@ -151,7 +127,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
         part += product[GROUPS * node + g] * direction[GROUPS * node + g];
       }
     }
-    const float curvature = total(part, scratch);
+    const float curvature = group_sum(sum4(part), scratch);
     if (!(curvature > 0)) {
       failed = iteration == 0;
       break;
@@ -171,7 +147,7 @@ kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void solve(
         part += product[GROUPS * node + g] * residual[GROUPS * node + g];
       }
     }
-    const float next = total(part, scratch);
+    const float next = group_sum(sum4(part), scratch);
     const float beta = next / rz;
     rz = next;
     FOR_EACH(node, node_count)

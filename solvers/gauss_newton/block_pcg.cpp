@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "solvers/gauss_newton/block_pcg.cl.embed.h"
+#include "solvers/gauss_newton/reductions.h"
 #include "solvers/gauss_newton/stepwise.h"
 
 namespace pliant {
@@ -17,11 +18,9 @@ class BlockPcgSteps : public StepSolver {
         local_(device_.info().is_gpu ? 128 : 1) {
     lay_out();
     // How far the residual falls in the preconditioned norm: what is left is for the next step.
-    const auto options =
-        fmt::format("-DLANES={} -DRELATIVE=1e-4f -DGROUPS={}", local_, equations.stride() / 4);
-    const auto kernel = [&](const char* name) {
-      return device_.kernel(embedded::solvers_gauss_newton_block_pcg_cl, name, options);
-    };
+    const auto options = fmt::format("-DRELATIVE=1e-4f -DGROUPS={}", equations.stride() / 4);
+    const auto source = with_reductions(embedded::solvers_gauss_newton_block_pcg_cl, local_);
+    const auto kernel = [&](const char* name) { return device_.kernel(source, name, options); };
     expand_ = kernel("expand");
     invert_ = kernel("invert_diagonals");
     solve_ = kernel("solve");
@@ -90,9 +89,9 @@ class BlockPcgSteps : public StepSolver {
 
 class BlockPcg : public LinearSolver {
  public:
-  std::unique_ptr<Course> bind(Problem& problem, Device& device,
-                               const CourseOptions& options) const override {
-    return make_stepwise_course(problem, device, options, "block_pcg", [](NormalEquations& equations) {
+  std::unique_ptr<Minimiser> bind(Problem& problem, Device& device,
+                                  const MinimiserOptions& options) const override {
+    return make_stepwise_minimiser(problem, device, options, "block_pcg", [](NormalEquations& equations) {
       return std::make_unique<BlockPcgSteps>(equations);
     });
   }

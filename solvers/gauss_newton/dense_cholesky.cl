@@ -143,9 +143,7 @@ kernel void update(global const int* status, int k, int n, int tile_columns, glo
 float dot64(global const float* a, const float* b) {
   float16 sum = 0;
   for (int part = 0; part < 4; ++part) sum += vload16(part, a) * vload16(part, b);
-  const float8 half_sum = sum.lo + sum.hi;
-  const float4 quarter = half_sum.lo + half_sum.hi;
-  return (quarter.x + quarter.y) + (quarter.z + quarter.w);
+  return sum16(sum);
 }
 
 // x_k = M x_k with M = L_kk^-1 (forward) or its transpose (backward). One work-item.

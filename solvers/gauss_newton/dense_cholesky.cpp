@@ -4,6 +4,7 @@
 
 #include "framework/core/error.h"
 #include "solvers/gauss_newton/dense_cholesky.cl.embed.h"
+#include "solvers/gauss_newton/reductions.h"
 #include "solvers/gauss_newton/stepwise.h"
 
 namespace pliant {
@@ -48,7 +49,7 @@ class DenseCholeskySteps : public StepSolver {
  private:
   std::size_t size() const { return static_cast<std::size_t>(n_); }
   cl::Kernel kernel(const char* name) {
-    return device_.kernel(embedded::solvers_gauss_newton_dense_cholesky_cl, name,
+    return device_.kernel(with_reductions(embedded::solvers_gauss_newton_dense_cholesky_cl), name,
                           fmt::format("-DSTRIDE={}", equations_.stride()));
   }
   // The inverse of diagonal block k inside the buffer of all of them.
@@ -114,9 +115,9 @@ class DenseCholeskySteps : public StepSolver {
 
 class DenseCholesky : public LinearSolver {
  public:
-  std::unique_ptr<Course> bind(Problem& problem, Device& device,
-                               const CourseOptions& options) const override {
-    return make_stepwise_course(problem, device, options, "dense_cholesky", make_dense_cholesky_steps);
+  std::unique_ptr<Minimiser> bind(Problem& problem, Device& device,
+                                  const MinimiserOptions& options) const override {
+    return make_stepwise_minimiser(problem, device, options, "dense_cholesky", make_dense_cholesky_steps);
   }
 };
 

@@ -14,13 +14,13 @@ using StatusRecord = std::array<cl_int, status_words>;
 class BoundGaussNewton : public BoundSolver {
  public:
   BoundGaussNewton(Problem& problem, Device& device, const LinearSolver& linear_solver,
-                   const CourseOptions& options)
-      : device_(device), course_(linear_solver.bind(problem, device, options)) {}
+                   const MinimiserOptions& options)
+      : device_(device), minimiser_(linear_solver.bind(problem, device, options)) {}
 
   void solve() override {
     constexpr StatusRecord zeros{};
     records_.push_back(device_.upload(zeros.data(), sizeof(zeros)));
-    course_->enqueue(records_.back());
+    minimiser_->enqueue(records_.back());
   }
 
   std::vector<SolverSummary> summaries() override {
@@ -38,7 +38,7 @@ class BoundGaussNewton : public BoundSolver {
     };
     SolverSummary summary;
     summary.solver = "gauss_newton";
-    summary.linear_solver = course_->description();
+    summary.linear_solver = minimiser_->description();
     summary.initial_energy = number(status_initial_energy);
     summary.final_energy = number(status_energy);
     summary.iterations = words[status_iterations];
@@ -53,13 +53,13 @@ class BoundGaussNewton : public BoundSolver {
   }
 
   Device& device_;
-  std::unique_ptr<Course> course_;
+  std::unique_ptr<Minimiser> minimiser_;
   std::vector<cl::Buffer> records_;
 };
 
 class GaussNewton : public Solver {
  public:
-  GaussNewton(std::unique_ptr<LinearSolver> linear_solver, const CourseOptions& options)
+  GaussNewton(std::unique_ptr<LinearSolver> linear_solver, const MinimiserOptions& options)
       : linear_solver_(std::move(linear_solver)), options_(options) {}
   std::unique_ptr<BoundSolver> bind(Problem& problem, Device& device) const override {
     return std::make_unique<BoundGaussNewton>(problem, device, *linear_solver_, options_);
@@ -67,7 +67,7 @@ class GaussNewton : public Solver {
 
  private:
   std::unique_ptr<LinearSolver> linear_solver_;
-  CourseOptions options_;
+  MinimiserOptions options_;
 };
 
 }  // namespace
@@ -80,9 +80,9 @@ void register_gauss_newton(Registry& registry) {
        real("damping", 1e-6).range(0, 1).doc("Least Levenberg factor of the diagonal of J^T J"),
        component("linear_solver", "linear_solver", "automatic").doc("Solves for the step")},
       [](const Parameters& parameters, const Registry& components) {
-        const CourseOptions options{static_cast<int>(parameters.integer("max_iterations")),
-                                    static_cast<float>(parameters.real("tolerance")),
-                                    static_cast<float>(parameters.real("damping"))};
+        const MinimiserOptions options{static_cast<int>(parameters.integer("max_iterations")),
+                                       static_cast<float>(parameters.real("tolerance")),
+                                       static_cast<float>(parameters.real("damping"))};
         return std::make_unique<GaussNewton>(
             components.make<LinearSolver>(parameters.section("linear_solver")), options);
       });

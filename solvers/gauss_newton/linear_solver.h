@@ -34,33 +34,41 @@ enum Termination {
 inline constexpr int most_iterations = 200;
 inline constexpr std::size_t status_words = status_energies + most_iterations;
 
-struct CourseOptions {
+struct MinimiserOptions {
   int max_iterations;
   float tolerance;  ///< relative change of the energy that ends the solve
   float damping;    ///< least lambda
 };
 
+/// Waits for what is enqueued, and tells whether the solve has ended. Asked after each iteration: the
+/// launches of one that finds the solve ended cost more than the wait.
+inline bool has_ended(const Device& device, const cl::Buffer& status) {
+  cl_int skip = 0;
+  device.read(status, &skip, sizeof(skip));
+  return skip != 0;
+}
+
 /// A Gauss-Newton solve bound to one problem on one device.
-class Course {
+class Minimiser {
  public:
-  virtual ~Course() = default;
-  /// Enqueues a whole solve from problem.unknowns() to problem.unknowns(). `status`: status_words zeros,
-  /// which the course fills.
+  virtual ~Minimiser() = default;
+  /// Enqueues a whole solve from problem.unknowns() to problem.unknowns(), and may wait between its
+  /// iterations. `status`: status_words zeros, which the minimiser fills.
   virtual void enqueue(const cl::Buffer& status) = 0;
   /// Name of the linear solver and, where it was chosen for the user, why.
   virtual std::string description() const = 0;
 };
 
-/// Solves the damped normal equations inside Gauss-Newton, and with that decides how the whole course runs:
-/// step by step over an assembled matrix (stepwise.h), or as it likes.
+/// Solves the damped normal equations inside Gauss-Newton, and with that decides how the whole minimisation
+/// runs: step by step over an assembled matrix (stepwise.h), or as it likes.
 class LinearSolver {
  public:
   static constexpr const char* kind = "linear_solver";
   virtual ~LinearSolver() = default;
   /// `problem` and `device` must outlive what is returned. Throws ConfigError for a problem that this
   /// linear solver cannot serve.
-  virtual std::unique_ptr<Course> bind(Problem& problem, Device& device,
-                                       const CourseOptions& options) const = 0;
+  virtual std::unique_ptr<Minimiser> bind(Problem& problem, Device& device,
+                                          const MinimiserOptions& options) const = 0;
 };
 
 }  // namespace pliant

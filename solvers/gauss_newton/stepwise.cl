@@ -1,18 +1,5 @@
-// The course of a Gauss-Newton solve, kept on the device so that the host never has to wait to decide.
+// The state of a Gauss-Newton minimisation, kept on the device, which decides by it.
 // Words of status: see StatusWord in linear_solver.h. Single work-items; the work is a few numbers.
-
-// Sum of the partial energies in order, with compensation: the decrease per iteration is a small
-// difference of large sums.
-float ordered_sum(global const float* values, int count) {
-  float sum = 0, lost = 0;
-  for (int i = 0; i < count; ++i) {
-    const float term = values[i] - lost;
-    const float next = sum + term;
-    lost = (next - sum) - term;
-    sum = next;
-  }
-  return sum;
-}
 
 kernel void begin(global int* status, global const float* partials, int count, float damping) {
   const float energy = ordered_sum(partials, count);

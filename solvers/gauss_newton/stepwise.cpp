@@ -1,15 +1,16 @@
 #include "solvers/gauss_newton/stepwise.h"
 
 #include "framework/problem/equation_source.h"
+#include "solvers/gauss_newton/reductions.h"
 #include "solvers/gauss_newton/stepwise.cl.embed.h"
 
 namespace pliant {
 namespace {
 
-class StepwiseCourse : public Course {
+class StepwiseMinimiser : public Minimiser {
  public:
-  StepwiseCourse(Problem& problem, Device& device, const CourseOptions& options, std::string linear_solver,
-                 const MakeStepSolver& make)
+  StepwiseMinimiser(Problem& problem, Device& device, const MinimiserOptions& options,
+                    std::string linear_solver, const MakeStepSolver& make)
       : problem_(problem),
         device_(device),
         options_(options),
@@ -24,14 +25,15 @@ class StepwiseCourse : public Course {
     equations_.sum_energy(problem_.unknowns().device(device_), status);
     device_.run("energy", begin, 1, 1, status, equations_.energy_partials(),
                 equations_.energy_partial_count(), options_.damping);
-    for (int i = 0; i < options_.max_iterations; ++i) iterate(status);
+    for (int i = 0; i < options_.max_iterations && (i == 0 || !has_ended(device_, status)); ++i)
+      iterate(status);
   }
 
   std::string description() const override { return linear_solver_; }
 
  private:
   cl::Kernel kernel(const char* name) {
-    return device_.kernel(embedded::solvers_gauss_newton_stepwise_cl, name);
+    return device_.kernel(with_reductions(embedded::solvers_gauss_newton_stepwise_cl), name);
   }
 
   cl::Kernel transform_kernel(const char* name) {
@@ -72,7 +74,7 @@ class StepwiseCourse : public Course {
 
   Problem& problem_;
   Device& device_;
-  CourseOptions options_;
+  MinimiserOptions options_;
   std::string linear_solver_;
   NormalEquations equations_;
   std::unique_ptr<StepSolver> step_solver_;
@@ -81,9 +83,11 @@ class StepwiseCourse : public Course {
 
 }  // namespace
 
-std::unique_ptr<Course> make_stepwise_course(Problem& problem, Device& device, const CourseOptions& options,
-                                             const std::string& linear_solver, const MakeStepSolver& make) {
-  return std::make_unique<StepwiseCourse>(problem, device, options, linear_solver, make);
+std::unique_ptr<Minimiser> make_stepwise_minimiser(Problem& problem, Device& device,
+                                                   const MinimiserOptions& options,
+                                                   const std::string& linear_solver,
+                                                   const MakeStepSolver& make) {
+  return std::make_unique<StepwiseMinimiser>(problem, device, options, linear_solver, make);
 }
 
 }  // namespace pliant

@@ -21,7 +21,9 @@ class StepSolver {
 using MakeStepSolver = std::function<std::unique_ptr<StepSolver>(NormalEquations&)>;
 
 /// Gauss-Newton over assembled blocks, kernel by kernel: for any energy and transform.
-std::unique_ptr<Course> make_stepwise_course(Problem& problem, Device& device, const CourseOptions& options,
-                                             const std::string& linear_solver, const MakeStepSolver& make);
+std::unique_ptr<Minimiser> make_stepwise_minimiser(Problem& problem, Device& device,
+                                                   const MinimiserOptions& options,
+                                                   const std::string& linear_solver,
+                                                   const MakeStepSolver& make);
 
 }  // namespace pliant

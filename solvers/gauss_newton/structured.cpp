@@ -7,100 +7,42 @@
 #include <utility>
 
 #include "framework/core/error.h"
-#include "framework/device/lanes.h"
-#include "framework/problem/equation_source.h"
 #include "framework/problem/structure.h"
 #include "solvers/gauss_newton/linear_solver.h"
-#include "solvers/gauss_newton/node_terms.cl.embed.h"
-#include "solvers/gauss_newton/rows.cl.embed.h"
-#include "solvers/gauss_newton/structured.cl.embed.h"
+#include "solvers/gauss_newton/structured/kernels.h"
 
 namespace pliant {
 namespace {
 
-constexpr int chunk = 64;  // CHUNK in rows.cl
-constexpr int lanes = 16;  // nodes that the course handles at once
+constexpr int chunk = 64;  // CHUNK in instance_terms.cl
+constexpr int batch = 16;  // nodes whose values lie in one float16
 constexpr std::size_t group = 16;
-constexpr std::size_t course_bytes = 64;  // no less than a Course in structured.cl
+constexpr std::size_t state_bytes = 64;  // no less than a State in structured/minimiser.cl
 
 int rounded_up(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
 
-/// Whether an energy's J^T J is M (x) I_3 and does not change from step to step: then it is assembled once.
-bool enters_matrix(const Energy& energy) {
-  return energy.equation.axis_separable() && !energy.loss.is_robust();
-}
-
-std::string rows_source(const Energy& energy) {
-  const auto& name = energy.equation.name;
-  return with_lanes(fmt::format(
-      "{0}#define NAME_RESIDUAL {1}_residual\n#define NAME_JACOBIAN {1}_jacobian\n#define NAME_ROW {1}_row\n"
-      "#define KERNEL(x) x##_{1}\n#define ROWS {2}\n#define PER_EDGE {3}\n#define SEPARABLE {4}\n"
-      "#define ROBUST {5}\n{6}{7}",
-      equation_source(energy, "float16"), name, energy.residuals,
-      static_cast<int>(energy.stencil == Stencil::per_edge), static_cast<int>(enters_matrix(energy)),
-      static_cast<int>(energy.loss.is_robust()), loss_source(energy.loss, "float16"),
-      embedded::solvers_gauss_newton_rows_cl));
-}
-
-/// The functions of every term per node, and three that call them all.
-std::string node_terms_source(const std::vector<const Term*>& terms) {
-  // From the order 4 axis + c to that of the equations.
-  std::string text = "#define COLUMNWISE(m) (3 * ((m) % 4) + (m) / 4)\n" + losses_source("float16");
-  std::string add, change, energy;
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const Energy& term = terms[i]->energy;
-    const auto& name = term.equation.name;
-    if (std::none_of(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(i),
-                     [&](const Term* other) { return other->energy.equation.name == name; }))
-      text += equation_source(term, "float16");
-    text += fmt::format(
-        "#undef NAME_RESIDUAL\n#undef NAME_JACOBIAN\n#undef TERM\n#undef ROWS\n#undef ROBUST\n"
-        "#define NAME_RESIDUAL {0}_residual\n#define NAME_JACOBIAN {0}_jacobian\n#define TERM(x) x##_{1}\n"
-        "#define ROWS {2}\n#define ROBUST {3}\n{4}{5}",
-        name, i, term.residuals, static_cast<int>(term.loss.is_robust()), loss_choice_source(term.loss),
-        embedded::solvers_gauss_newton_node_terms_cl);
-    add += fmt::format("  add_{}(u, inside * weights[{}], weights[{}], packed, gradient);\n", i, 2 * i,
-                       2 * i + 1);
-    change +=
-        fmt::format("  change += change_{}(u, v, inside * weights[{}], weights[{}]);\n", i, 2 * i, 2 * i + 1);
-    energy +=
-        fmt::format("  energy += energy_{}(u, inside * weights[{}], weights[{}]);\n", i, 2 * i, 2 * i + 1);
-  }
-  return text + fmt::format(
-                    "float16 add_node_terms(const float16* u, float16 inside, global const float* weights,\n"
-                    "                       float16* packed, float16* gradient) {{\n"
-                    "  float16 energy = 0;\n{}  return energy;\n}}\n"
-                    "float16 change_of_node_terms(const float16* u, const float16* v, float16 inside,\n"
-                    "                             global const float* weights) {{\n"
-                    "  float16 change = 0;\n{}  return change;\n}}\n"
-                    "float16 energy_of_node_terms(const float16* u, float16 inside, global const float* "
-                    "weights) {{\n"
-                    "  float16 energy = 0;\n{}  return energy;\n}}\n",
-                    add, change, energy);
-}
-
 /// One kind of instances (all edges, or all constraints) on the device, as `assemble` takes it.
-struct Kind {
+struct Instances {
   Incidences incidences;
   NodeLists lists;
-  cl::Buffer nodes, starts, entries, places, arms, forces;
+  cl::Buffer nodes, starts, entries, places, lever_arms, contributions;
 
   void upload(Device& device, int padded, const std::vector<std::uint16_t>& block_places) {
     lists.starts.resize(static_cast<std::size_t>(padded) + 1, lists.starts.back());
-    for (int& node : incidences.nodes) node = std::max(node, 0);  // an empty slot has an arm of zero
+    for (int& node : incidences.nodes) node = std::max(node, 0);  // an empty slot has a lever arm of zero
     nodes = device.upload(incidences.nodes);
     starts = device.upload(lists.starts);
     entries = device.upload(lists.entries);
     places = device.upload(block_places);
-    arms = device.allocate(4 * sizeof(float) * incidences.nodes.size());
-    forces = device.allocate(4 * sizeof(float) * incidences.size());
+    lever_arms = device.allocate(4 * sizeof(float) * incidences.nodes.size());
+    contributions = device.allocate(4 * sizeof(float) * incidences.size());
   }
 };
 
 /// A term per edge or per constraint, and where its instances stand among those of its kind.
-struct RowTerm {
+struct InstanceTerm {
   const Term* term;
-  Kind* kind;
+  Instances* kind;
   cl_int first;
   cl_int count;
   cl_int add;  ///< another term has already written to the same instances
@@ -112,43 +54,44 @@ struct RowTerm {
   int partials() const { return (count + chunk - 1) / chunk; }
 };
 
-class StructuredCourse : public Course {
+class StructuredMinimiser : public Minimiser {
  public:
-  StructuredCourse(Problem& problem, Device& device, const CourseOptions& options)
+  StructuredMinimiser(Problem& problem, Device& device, const MinimiserOptions& options)
       : problem_(problem),
         device_(device),
         options_(options),
         node_count_(problem.node_count()),
-        padded_(rounded_up(problem.node_count(), lanes)) {
+        padded_(rounded_up(problem.node_count(), batch)) {
     collect_terms();
     lay_out();
     make_kernels();
-    make_arms();
+    make_lever_arms();
   }
 
   void enqueue(const cl::Buffer& status) override {
     upload_node_weights();
-    for (auto& term : row_terms_) evaluate("jacobian", term, status);
+    for (auto& term : instance_terms_) evaluate("jacobian", term, status);
     device_.run("mm", assemble_, static_cast<std::size_t>(padded_), group, status, padded_, count_of(edges_),
-                edges_.nodes, edges_.starts, edges_.entries, edges_.arms, edges_.forces, edges_.places,
-                count_of(constraints_), constraints_.nodes, constraints_.starts, constraints_.entries,
-                constraints_.arms, constraints_.forces, constraints_.places, rows_, matrix_, gradient_);
+                edges_.nodes, edges_.starts, edges_.entries, edges_.lever_arms, edges_.contributions,
+                edges_.places, count_of(constraints_), constraints_.nodes, constraints_.starts,
+                constraints_.entries, constraints_.lever_arms, constraints_.contributions,
+                constraints_.places, row_starts_, matrix_, gradient_);
     if (is_coupled())
       minimise_step_by_step(status);
     else
-      run_course(solve_, status, gradient_, partial_count_, partials_,
-                 problem_.unknowns().write_device(device_));
+      run_minimiser(solve_, status, gradient_, partial_count_, partials_,
+                    problem_.unknowns().write_device(device_));
     // The changes of many steps hide what is left of the energy; that of one does not.
     const bool sums_anew = options_.max_iterations > 1;
     if (sums_anew)
-      for (auto& term : row_terms_) evaluate("energy", term, status);
+      for (auto& term : instance_terms_) evaluate("energy", term, status);
     device_.run("energy", conclude_, 1, 1, status, sums_anew ? partial_count_ + 1 : 0, partials_);
   }
 
   std::string description() const override { return "structured"; }
 
  private:
-  static cl_int count_of(const Kind& kind) { return static_cast<cl_int>(kind.incidences.size()); }
+  static cl_int count_of(const Instances& kind) { return static_cast<cl_int>(kind.incidences.size()); }
 
   void collect_terms() {
     const int edge_count = static_cast<int>(problem_.graph().edges.size());
@@ -159,7 +102,7 @@ class StructuredCourse : public Course {
         node_terms_.push_back(&term);
         continue;
       }
-      RowTerm made{&term, &edges_, 0, edge_count, 0, partial_count_, coupled_partial_count_, {}, {}};
+      InstanceTerm made{&term, &edges_, 0, edge_count, 0, partial_count_, coupled_partial_count_, {}, {}};
       if (term.constraints) {
         made.kind = &constraints_;
         made.first = first_of(term.constraints.get(), !enters_matrix(term.energy), made.add);
@@ -171,7 +114,7 @@ class StructuredCourse : public Course {
         edges_.incidences.nodes.insert(edges_.incidences.nodes.end(), own.begin(), own.end());
       }
       partial_count_ += made.partials();
-      row_terms_.push_back(std::move(made));
+      instance_terms_.push_back(std::move(made));
     }
     for (const auto& set : sets_) append_slots(set.constraints->influences);
   }
@@ -217,7 +160,7 @@ class StructuredCourse : public Course {
     }
     edges_.upload(device_, padded_, pattern.places[0]);
     constraints_.upload(device_, padded_, pattern.places[1]);
-    rows_ = device_.upload(pattern.starts);
+    row_starts_ = device_.upload(pattern.starts);
     columns_ = device_.upload(pattern.columns);
 
     constexpr auto number = sizeof(float);
@@ -237,23 +180,21 @@ class StructuredCourse : public Course {
     const auto instances = is_coupled() ? constraints_.incidences.size() : 0;
     if (!is_coupled()) nodes = 0;
     // Zeros: a set of constraints may have terms of only one of the two sorts.
-    if (is_coupled()) constraints_.forces = device_.upload(std::vector<float>(4 * instances, 0.0F));
-    couplings_ = device_.upload(std::vector<float>(8 * instances, 0.0F));
-    coupled_forces_ = device_.upload(std::vector<float>(4 * instances, 0.0F));
-    pulls_ = device_.allocate(number * 4 * instances);
+    if (is_coupled()) constraints_.contributions = device_.upload(std::vector<float>(4 * instances, 0.0F));
+    point_hessians_ = device_.upload(std::vector<float>(8 * instances, 0.0F));
+    coupled_contributions_ = device_.upload(std::vector<float>(4 * instances, 0.0F));
+    hessian_products_ = device_.allocate(number * 4 * instances);
     coupled_diagonal_ = device_.allocate(number * 78 * nodes);
     coupled_gradient_ = device_.allocate(number * 12 * nodes);
     trial_ = device_.allocate(number * 12 * nodes);
     changes_ = device_.allocate(number * static_cast<std::size_t>(coupled_partial_count_));
-    course_ = device_.allocate(course_bytes);
+    state_ = device_.allocate(state_bytes);
   }
 
   void make_kernels() {
     local_ = device_.info().is_gpu ? 128 : 1;
-    const std::string source = with_lanes(
-        fmt::format("#define LANES {}\n#define SLOTS {}\n#define K {}\n#define COUPLED {}\n{}{}", local_,
-                    max_influences, constraints_.incidences.per_instance, static_cast<int>(is_coupled()),
-                    node_terms_source(node_terms_), embedded::solvers_gauss_newton_structured_cl));
+    const auto source =
+        minimiser_source(node_terms_, constraints_.incidences.per_instance, is_coupled(), local_);
     const auto kernel = [&](const char* name) { return device_.kernel(source, name); };
     assemble_ = kernel("assemble");
     conclude_ = kernel("conclude");
@@ -266,14 +207,15 @@ class StructuredCourse : public Course {
     } else {
       solve_ = kernel("solve");
     }
-    for (auto& term : row_terms_) {
-      term.evaluate = row_kernel(term, "evaluate");
-      if (!enters_matrix(term.term->energy)) term.change = row_kernel(term, "change");
+    for (auto& term : instance_terms_) {
+      term.evaluate = term_kernel(term, "evaluate");
+      if (!enters_matrix(term.term->energy)) term.change = term_kernel(term, "change");
     }
   }
 
-  cl::Kernel row_kernel(const RowTerm& term, const std::string& name) {
-    return device_.kernel(rows_source(term.term->energy), name + "_" + term.term->energy.equation.name,
+  cl::Kernel term_kernel(const InstanceTerm& term, const std::string& name) {
+    return device_.kernel(instance_terms_source(term.term->energy),
+                          name + "_" + term.term->energy.equation.name,
                           fmt::format("-DK={}", term.kind->incidences.per_instance));
   }
 
@@ -286,68 +228,71 @@ class StructuredCourse : public Course {
   }
 
   /// What the instances' nodes and points fix once and for all.
-  void make_arms() {
+  void make_lever_arms() {
     const auto& node_points = problem_.node_points().device(device_);
-    for (auto& term : row_terms_) {
+    for (auto& term : instance_terms_) {
       if (term.kind != &edges_) continue;
-      auto kernel = row_kernel(term, "arms");
-      device_.run("weights", kernel, static_cast<std::size_t>(rounded_up(term.count, lanes) / lanes), 4,
-                  node_points, term.count, edges_.nodes, term.first, edges_.arms);
+      auto kernel = term_kernel(term, "lever_arms");
+      device_.run("weights", kernel, static_cast<std::size_t>(rounded_up(term.count, batch) / batch), 4,
+                  node_points, term.count, edges_.nodes, term.first, edges_.lever_arms);
     }
     for (const auto& set : sets_)
-      compute_arms(device_, *set.constraints, problem_.node_points(), set.first,
-                   constraints_.incidences.per_instance, constraints_.arms);
+      compute_lever_arms(device_, *set.constraints, problem_.node_points(), set.first,
+                         constraints_.incidences.per_instance, constraints_.lever_arms);
   }
 
   bool is_coupled() const { return coupled_partial_count_ > 0; }
 
   /// A kernel over the system as a whole: one work-group.
   template <class... Arguments>
-  void run_course(cl::Kernel& kernel, const cl::Buffer& status, const Arguments&... arguments) {
-    device_.run("solver", kernel, local_, local_, status, node_count_, padded_ / lanes,
-                options_.max_iterations, options_.tolerance, options_.damping, node_weights_, rows_, columns_,
-                matrix_, diagonal_, factors_, vectors_, count_of(edges_), edges_.nodes, edges_.starts,
-                edges_.entries, edges_.arms, edges_.forces, count_of(constraints_), constraints_.nodes,
-                constraints_.starts, constraints_.entries, constraints_.arms, constraints_.forces, couplings_,
-                pulls_, coupled_diagonal_, coupled_gradient_, arguments...);
+  void run_minimiser(cl::Kernel& kernel, const cl::Buffer& status, const Arguments&... arguments) {
+    device_.run("solver", kernel, local_, local_, status, node_count_, padded_ / batch,
+                options_.max_iterations, options_.tolerance, options_.damping, node_weights_, row_starts_,
+                columns_, matrix_, diagonal_, factors_, vectors_, count_of(edges_), edges_.nodes,
+                edges_.starts, edges_.entries, edges_.lever_arms, edges_.contributions,
+                count_of(constraints_), constraints_.nodes, constraints_.starts, constraints_.entries,
+                constraints_.lever_arms, constraints_.contributions, point_hessians_, hessian_products_,
+                coupled_diagonal_, coupled_gradient_, arguments...);
   }
 
   void minimise_step_by_step(const cl::Buffer& status) {
     const auto& unknowns = problem_.unknowns().write_device(device_);
-    run_course(begin_, status, gradient_, partial_count_, partials_, unknowns, course_);
-    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+    run_minimiser(begin_, status, gradient_, partial_count_, partials_, unknowns, state_);
+    for (int iteration = 0;
+         iteration < options_.max_iterations && (iteration == 0 || !has_ended(device_, status));
+         ++iteration) {
       // The first time what was evaluated at the start still holds.
-      for (auto& term : row_terms_)
+      for (auto& term : instance_terms_)
         if (!enters_matrix(term.term->energy) && iteration > 0) evaluate("jacobian", term, status);
-      device_.run("mm", assemble_coupled_, static_cast<std::size_t>(padded_ / lanes), 1, status,
-                  padded_ / lanes, count_of(constraints_), constraints_.nodes, constraints_.starts,
-                  constraints_.entries, constraints_.arms, constraints_.forces, couplings_, coupled_forces_,
-                  coupled_diagonal_, coupled_gradient_);
-      run_course(step_, status, course_, trial_);
-      for (auto& term : row_terms_)
+      device_.run("mm", assemble_coupled_, static_cast<std::size_t>(padded_ / batch), 1, status,
+                  padded_ / batch, count_of(constraints_), constraints_.nodes, constraints_.starts,
+                  constraints_.entries, constraints_.lever_arms, constraints_.contributions, point_hessians_,
+                  coupled_contributions_, coupled_diagonal_, coupled_gradient_);
+      run_minimiser(step_, status, state_, trial_);
+      for (auto& term : instance_terms_)
         if (!enters_matrix(term.term->energy)) measure_change(term, status);
-      run_course(take_, status, course_, coupled_partial_count_, changes_, unknowns);
+      run_minimiser(take_, status, state_, coupled_partial_count_, changes_, unknowns);
     }
-    run_course(end_, status, course_, partial_count_, partials_, unknowns);
+    run_minimiser(end_, status, state_, partial_count_, partials_, unknowns);
   }
 
-  void evaluate(const std::string& stage, RowTerm& term, const cl::Buffer& status) {
+  void evaluate(const std::string& stage, InstanceTerm& term, const cl::Buffer& status) {
     const auto& node_points = problem_.node_points().device(device_);
     const auto* constraints = term.term->constraints.get();
     const auto& data = constraints ? constraints->data.device(device_) : node_points;
     const auto& confidence = constraints ? constraints->confidence.device(device_) : node_points;
     device_.run(stage, term.evaluate, static_cast<std::size_t>(term.partials()), 1, status, term.count,
                 weight_of(*term.term), loss_scale_of(term), problem_.unknowns().device(device_), term.first,
-                term.kind->nodes, term.kind->arms, node_points, data, confidence, term.add,
-                !enters_matrix(term.term->energy) ? coupled_forces_ : term.kind->forces, couplings_,
-                term.first_partial, partials_);
+                term.kind->nodes, term.kind->lever_arms, node_points, data, confidence, term.add,
+                !enters_matrix(term.term->energy) ? coupled_contributions_ : term.kind->contributions,
+                point_hessians_, term.first_partial, partials_);
   }
 
-  void measure_change(RowTerm& term, const cl::Buffer& status) {
+  void measure_change(InstanceTerm& term, const cl::Buffer& status) {
     const auto& constraints = *term.term->constraints;
     device_.run("energy", term.change, static_cast<std::size_t>(term.partials()), 1, status, term.count,
                 weight_of(*term.term), loss_scale_of(term), problem_.unknowns().device(device_), trial_,
-                term.first, term.kind->nodes, term.kind->arms, constraints.data.device(device_),
+                term.first, term.kind->nodes, term.kind->lever_arms, constraints.data.device(device_),
                 constraints.confidence.device(device_), term.first_change, changes_);
   }
 
@@ -355,7 +300,7 @@ class StructuredCourse : public Course {
     return static_cast<cl_float>(problem_.effective_weight(term));
   }
 
-  static cl_float loss_scale_of(const RowTerm& term) {
+  static cl_float loss_scale_of(const InstanceTerm& term) {
     return static_cast<cl_float>(term.term->energy.loss.scale);
   }
 
@@ -367,32 +312,32 @@ class StructuredCourse : public Course {
 
   Problem& problem_;
   Device& device_;
-  CourseOptions options_;
+  MinimiserOptions options_;
   cl_int node_count_;
   cl_int padded_;
   std::size_t local_ = 1;
   std::vector<const Term*> node_terms_;
-  std::vector<RowTerm> row_terms_;
+  std::vector<InstanceTerm> instance_terms_;
   std::vector<ConstraintSet> sets_;
-  Kind edges_;
-  Kind constraints_;
+  Instances edges_;
+  Instances constraints_;
   cl_int partial_count_ = 0;
   cl_int coupled_partial_count_ = 0;
   int constraint_count_ = 0;
-  cl::Buffer rows_, columns_, matrix_, diagonal_, factors_, gradient_, vectors_;
+  cl::Buffer row_starts_, columns_, matrix_, diagonal_, factors_, gradient_, vectors_;
   cl::Buffer node_weights_, partials_;
-  cl::Buffer couplings_, coupled_forces_, pulls_, coupled_diagonal_, coupled_gradient_;
-  cl::Buffer trial_, changes_, course_;
+  cl::Buffer point_hessians_, coupled_contributions_, hessian_products_, coupled_diagonal_, coupled_gradient_;
+  cl::Buffer trial_, changes_, state_;
   cl::Kernel assemble_, assemble_coupled_, solve_, begin_, step_, take_, end_, conclude_;
 };
 
 class Structured : public LinearSolver {
  public:
-  std::unique_ptr<Course> bind(Problem& problem, Device& device,
-                               const CourseOptions& options) const override {
+  std::unique_ptr<Minimiser> bind(Problem& problem, Device& device,
+                                  const MinimiserOptions& options) const override {
     const auto obstacle = structured_obstacle(problem);
     if (!obstacle.empty()) throw ConfigError("linear solver structured: " + obstacle);
-    return std::make_unique<StructuredCourse>(problem, device, options);
+    return std::make_unique<StructuredMinimiser>(problem, device, options);
   }
 };
 

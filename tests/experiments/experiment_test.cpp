@@ -70,7 +70,7 @@ TEST_F(ExperimentTest, ASweepMakesNamesThatCanNameAFolderAndAreNoFileOfAResult) 
   const ExperimentPlan made = plan("sweep: {device: [a/b, 'c:d', result.json]}");
   EXPECT_THAT(run_names(made), ElementsAre("device=a_b", "device=c_d", "device=result.json"));
   EXPECT_THAT(error("runs: {index.html: , ../up: }\nsweep: {seed: [1]}"),
-              HasSubstr("small.yaml:2:23: the run's name '../up,seed=1' cannot name a folder"));
+              HasSubstr("small.yaml:2:22: the run's name '../up,seed=1' cannot name a folder"));
 }
 
 TEST_F(ExperimentTest, AWrongValueOfASweepIsToldWhereItStands) {

@@ -48,7 +48,8 @@ void add_instance(const Problem& problem, const Term& term, std::size_t instance
   for (std::size_t slot = 0; slot < nodes.size(); ++slot)
     J.middleCols(affine_size * nodes[slot], affine_size) +=
         outer * inner_derivative(problem, term, instance, static_cast<int>(slot));
-  const double factor = problem.effective_weight(term) * confidence;
+  const double factor =
+      problem.effective_weight(term) * confidence * term.energy.loss.weight(r.squaredNorm());
   for (const int a : nodes) {
     const auto left = J.middleCols(affine_size * a, affine_size).transpose();
     normals.gradient.segment(affine_size * a, affine_size) += factor * left * r;

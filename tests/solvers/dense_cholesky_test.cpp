@@ -161,6 +161,37 @@ TEST_F(DenseCholesky, TheSameBitsEveryTime) {
   EXPECT_EQ(solve_system(equations).step, solve_system(equations).step);
 }
 
+/// Counts the systems that another one is asked for.
+class Counted : public StepSolver {
+ public:
+  Counted(std::unique_ptr<StepSolver> steps, int& count) : steps_(std::move(steps)), count_(count) {}
+  void solve(const cl::Buffer& status) override {
+    ++count_;
+    steps_->solve(status);
+  }
+  const cl::Buffer& step() const override { return steps_->step(); }
+
+ private:
+  std::unique_ptr<StepSolver> steps_;
+  int& count_;
+};
+
+TEST_F(SolverTest, AStepwiseMinimiserLaunchesNothingOnceItHasEnded) {
+  auto problem = sheet_problem({.nodes = 9, .constraints = 60});
+  int systems = 0;
+  const auto minimiser = make_stepwise_minimiser(
+      problem, device_, {.max_iterations = most_iterations, .tolerance = 1e-6F, .damping = 1e-6F}, "counted",
+      [&](NormalEquations& equations) {
+        return std::make_unique<Counted>(make_dense_cholesky_steps(equations), systems);
+      });
+  std::vector<cl_int> words(status_words);
+  const auto status = device_.upload(words);
+  minimiser->enqueue(status);
+  device_.read(status, words.data(), sizeof(cl_int) * words.size());
+  EXPECT_EQ(words[status_termination], termination_converged);
+  EXPECT_EQ(systems, words[status_iterations]);
+}
+
 // Before anything is allocated for it: the matrix has more bytes than a buffer, or an int of the kernels,
 // takes.
 TEST_F(SolverTest, DenseCholeskyRefusesAMatrixThatTheDeviceDoesNotTake) {
