@@ -249,7 +249,7 @@ class StructuredCourse : public Course {
   }
 
   void make_kernels() {
-    local_ = device_.info().is_gpu ? 128 : 1;
+    local_ = static_cast<std::size_t>(device_.work_group_size());
     const std::string source = with_lanes(
         fmt::format("#define LANES {}\n#define SLOTS {}\n#define K {}\n#define COUPLED {}\n{}{}", local_,
                     max_influences, constraints_.incidences.per_instance, static_cast<int>(is_coupled()),
