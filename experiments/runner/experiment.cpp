@@ -23,6 +23,20 @@ ParameterTable compare_table() {
   };
 }
 
+ParameterTable kernels_table() {
+  return {
+      integer("vector_width")
+          .optional()
+          .range(1, 16)
+          .doc("of the vectors that kernels are written over: 1 or 16; 16 on a CPU, 1 on a GPU by default"),
+      integer("work_group_size")
+          .optional()
+          .range(1, 4096)
+          .doc("work-items that solve one system together, a power of two; 1 on a CPU, 128 on a GPU by "
+               "default"),
+  };
+}
+
 /// Results are kept in folders of these names, so they must be fit for one.
 void check_name(const std::string& name, const std::string& place, const std::string& what) {
   const bool is_good =
@@ -94,11 +108,23 @@ void name_experiment(ExperimentPlan& plan, const ConfigSource& source) {
 
 }  // namespace
 
+DeviceOptions device_options(const Parameters& experiment) {
+  const Parameters& kernels = experiment.section("kernels");
+  const auto number = [&](const std::string& name) {
+    return kernels.has(name) ? std::optional(static_cast<int>(kernels.integer(name))) : std::nullopt;
+  };
+  const DeviceOptions options{number("vector_width"), number("work_group_size"), ""};
+  const std::string wrong = Device::complaint(options);
+  if (!wrong.empty()) throw ConfigError(fmt::format("{}: 'kernels' asks for {}", kernels.place(), wrong));
+  return options;
+}
+
 ParameterTable experiment_table() {
   std::vector<Parameter> rows{
       text("name").optional().doc("of the experiment; the file's name by default"),
       integer("seed", 1).range(0, 4294967295.0).doc("of everything that is drawn at random"),
       text("device", "any").doc("OpenCL device: any, cpu, gpu, or a part of its name"),
+      group("kernels", kernels_table()).doc("how kernels are shaped for the device"),
       component("data", DataSource::kind).doc("what is registered"),
   };
   rows.push_back(components("handles", Handle::kind)
@@ -136,6 +162,7 @@ ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& regis
   for (const auto& [name, values] : plan.experiment.values.sections("runs"))
     plan.runs.push_back({name, values, file + ", run " + name});
   if (plan.runs.empty()) plan.runs.push_back({plan.name, plan.experiment.values, file});
+  for (const auto& run : plan.runs) device_options(run.values);
   check_quick(plan, file);
   check_handles(plan);
   return plan;

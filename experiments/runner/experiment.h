@@ -5,11 +5,15 @@
 #include <vector>
 
 #include "framework/config/config.h"
+#include "framework/device/device.h"
 
 namespace pliant {
 
 /// The keys of an experiment file.
 ParameterTable experiment_table();
+
+/// What an experiment asks of its device. Throws ConfigError for what no device has.
+DeviceOptions device_options(const Parameters& experiment);
 
 /// The files that stand beside the folders of several runs, in results of every kind.
 inline constexpr std::array files_beside_runs{"experiment.yaml", "result.json", "compare.json", "index.html"};

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "experiments/datasets/data_source.h"
+#include "experiments/runner/experiment.h"
 
 namespace pliant {
 namespace {
@@ -36,9 +37,10 @@ std::string fingerprint(const Parameters& section) {
 }  // namespace
 
 Device& Workbench::device(const Parameters& experiment) {
-  auto& device = devices_[experiment.text("device")];
+  const std::string& name = experiment.text("device");
+  auto& device = devices_[name + " " + fingerprint(experiment.section("kernels"))];
   if (device == nullptr) {
-    device = std::make_unique<Device>(experiment.text("device"));
+    device = std::make_unique<Device>(name, device_options(experiment));
     device->tell_of_building(tell_of_building_);
   }
   return *device;

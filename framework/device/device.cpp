@@ -90,7 +90,18 @@ std::string Device::why_none() {
                          : "there is no OpenCL device: " + problem;
 }
 
-Device::Device(const std::string& selection) : kernel_cache_(open_kernel_cache()) {
+std::string Device::complaint(const DeviceOptions& options) {
+  if (const int width = options.vector_width.value_or(1); width != 1 && width != 16)
+    return fmt::format("a vector width of {}; expected 1 or 16", width);
+  if (const int size = options.work_group_size.value_or(1);
+      size < 1 || !std::has_single_bit(static_cast<unsigned>(size)))
+    return fmt::format("a work-group of {} work-items; expected a power of two", size);
+  return "";
+}
+
+Device::Device(const std::string& selection, const DeviceOptions& options)
+    : options_(options), kernel_cache_(open_kernel_cache()) {
+  if (const std::string wrong = complaint(options); !wrong.empty()) throw DeviceError(wrong);
   const auto devices = all_devices();
   const auto chosen = std::find_if(devices.begin(), devices.end(), [&](const cl::Device& device) {
     return matches(describe(device), lower(selection));
@@ -103,12 +114,20 @@ Device::Device(const std::string& selection) : kernel_cache_(open_kernel_cache()
   }
   device_ = *chosen;
   info_ = describe(device_);
+  check_work_group();
   try {
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
   } catch (const cl::Error& error) {
     fail("opening device " + info_.name, error);
   }
+}
+
+void Device::check_work_group() const {
+  const auto most = device_.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+  if (static_cast<std::size_t>(work_group_size()) > most)
+    throw DeviceError(fmt::format("a work-group of {} work-items is too large for {}: one may have {}",
+                                  work_group_size(), info_.name, most));
 }
 
 cl::Kernel Device::kernel(std::string_view source, const std::string& name, const std::string& options) {
@@ -128,7 +147,8 @@ cl::Kernel Device::kernel(std::string_view source, const std::string& name, cons
 }
 
 cl::Program Device::build(std::string_view source, const std::string& options) {
-  const std::string all_options = fmt::format("-cl-std=CL1.2 -DWIDTH={} {}", width(), options);
+  const std::string all_options =
+      fmt::format("-cl-std=CL1.2 -DWIDTH={} {} {}", width(), options_.build_options, options);
   const std::string identity =
       fmt::format("{}\n{}\n{}\n{}\n{}", info_.platform, info_.driver, info_.name, all_options, source);
   const bool is_new = !is_noted(kernel_cache_, identity);

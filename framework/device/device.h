@@ -8,6 +8,7 @@
 #include <deque>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -32,26 +33,37 @@ struct DeviceInfo {
   std::size_t most_bytes = 0;  ///< that one buffer may have
 };
 
+/// How kernels are shaped; by default as suits the kind of device. Results differ by rounding.
+struct DeviceOptions {
+  std::optional<int> vector_width;     ///< of the explicit vectors: 16 (on CPUs) or 1 (on GPUs)
+  std::optional<int> work_group_size;  ///< a power of two: 1 (on CPUs), 128 (on GPUs)
+  std::string build_options;           ///< of every program, e.g. "-cl-opt-disable"
+};
+
 /// An OpenCL device with one in-order queue. Kernels are enqueued and never waited for; only reading
 /// results back waits. Not thread-safe. Failures raise DeviceError.
 class Device {
  public:
   /// Opens a device: "any" (a CPU first, because that is where results are reproducible everywhere),
   /// "cpu", "gpu", or a part of the device's or platform's name (case ignored).
-  explicit Device(const std::string& selection = "any");
+  explicit Device(const std::string& selection = "any", const DeviceOptions& options = {});
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
   static std::vector<DeviceInfo> list();
   /// Why the list is empty, and what to do about it.
   static std::string why_none();
+  /// What is wrong with options whatever the device; empty when nothing is.
+  static std::string complaint(const DeviceOptions& options);
   const DeviceInfo& info() const { return info_; }
 
   const cl::Context& context() const { return context_; }
   const cl::CommandQueue& queue() const { return queue_; }
 
-  /// Lanes of the explicit vectors that kernels are written over: 16 on a CPU, 1 on a GPU.
-  int width() const { return info_.is_gpu ? 1 : 16; }
+  /// Values of the explicit vectors that kernels are written over.
+  int width() const { return options_.vector_width.value_or(info_.is_gpu ? 1 : 16); }
+  /// Work-items of kernels that run in a single work-group.
+  int work_group_size() const { return options_.work_group_size.value_or(info_.is_gpu ? 128 : 1); }
 
   /// The kernel `name` of a program. A program and its kernels are made once per source and options and kept;
   /// drivers keep binaries on disk beyond that. All who ask for a kernel share it, arguments included.
@@ -118,6 +130,7 @@ class Device {
   void enqueue(const std::string& stage, const cl::Kernel& kernel, std::size_t global, std::size_t local);
   [[noreturn]] static void fail(const std::string& what, const cl::Error& error);
 
+  DeviceOptions options_;
   DeviceInfo info_;
   cl::Device device_;
   cl::Context context_;
@@ -127,6 +140,7 @@ class Device {
     cl::Program program;
     std::unordered_map<std::string, cl::Kernel> kernels;
   };
+  void check_work_group() const;
   cl::Buffer make_buffer(std::size_t bytes, void* data = nullptr) const;
   void drop_unused_buffers() const;
   Program& program_of(std::string_view source, const std::string& options);

@@ -15,7 +15,7 @@ class BlockPcgSteps : public StepSolver {
       : equations_(equations),
         device_(equations.device()),
         node_count_(equations.node_count()),
-        local_(device_.info().is_gpu ? 128 : 1) {
+        local_(static_cast<std::size_t>(device_.work_group_size())) {
     lay_out();
     // How far the residual falls in the preconditioned norm: what is left is for the next step.
     const auto options = fmt::format("-DRELATIVE=1e-4f -DGROUPS={}", equations.stride() / 4);

@@ -192,7 +192,7 @@ class StructuredMinimiser : public Minimiser {
   }
 
   void make_kernels() {
-    local_ = device_.info().is_gpu ? 128 : 1;
+    local_ = static_cast<std::size_t>(device_.work_group_size());
     const auto source =
         minimiser_source(node_terms_, constraints_.incidences.per_instance, is_coupled(), local_);
     const auto kernel = [&](const char* name) { return device_.kernel(source, name); };

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "framework/core/error.h"
+#include "tests/device/shapes.h"
 
 namespace pliant {
 namespace {
@@ -56,7 +57,7 @@ void expect_weights_sum_to_one(const Influences& influences, std::size_t points)
   }
 }
 
-class SkinningTest : public testing::Test {
+class SkinningTest : public testing::TestWithParam<DeviceOptions> {
  protected:
   Influences on_device(const Points& points, const Points& nodes, int k) {
     return compute_influences(device_, Array<float>(flat(points)), nodes, k);
@@ -74,29 +75,54 @@ class SkinningTest : public testing::Test {
     expect_weights_sum_to_one(found, points.size());
   }
 
-  Device device_;
+  // Small whole numbers: every squared distance is exact, so that ties are ties on both sides.
+  void expect_ties_to_go_to_the_lower_node(int k) {
+    Points nodes, points;
+    for (int x = 0; x < 8; ++x)
+      for (int y = 0; y < 8; ++y) {
+        nodes.emplace_back(2 * x, 2 * y, 0);
+        points.emplace_back(2 * x + 1, 2 * y + 1, 0);
+      }
+    const auto found = on_device(points, nodes, k);
+    const auto expected = compute_influences_reference(flat(points), nodes, k);
+    EXPECT_EQ(found.nodes.host(), expected.nodes.host()) << "k = " << k;
+    EXPECT_THAT(found.weights.host(), testing::Pointwise(testing::FloatNear(1e-6F), expected.weights.host()));
+  }
+
+  Device device_{"any", GetParam()};
 };
 
-TEST_F(SkinningTest, TheDeviceAgreesWithTheReference) {
+INSTANTIATE_TEST_SUITE_P(Shapes, SkinningTest, testing::ValuesIn(test::device_shapes));
+
+/// Many programs, one for each k: these are built in one shape alone.
+class SkinningForEveryK : public SkinningTest {};
+
+INSTANTIATE_TEST_SUITE_P(Shapes, SkinningForEveryK, testing::Values(test::device_shapes.front()));
+
+TEST_P(SkinningForEveryK, TheDeviceAgreesWithTheReference) {
   const auto points = random_points(301, 1);
   for (int k = 1; k <= 8; ++k) expect_same_as_reference(points, random_points(200, 2), k);
   expect_same_as_reference(points, random_points(200, 2), max_influences);
 }
 
-TEST_F(SkinningTest, EveryNumberOfNodesAroundTheVectorWidthIsPadded) {
+TEST_P(SkinningTest, TheDeviceAgreesWithTheReference) {
+  for (const int k : {1, 4}) expect_same_as_reference(random_points(301, 1), random_points(200, 2), k);
+}
+
+TEST_P(SkinningTest, EveryNumberOfNodesAroundTheVectorWidthIsPadded) {
   const auto points = random_points(40, 3);
   for (const std::size_t count : {5U, 15U, 16U, 17U, 31U, 32U, 33U})
     expect_same_as_reference(points, random_points(count, 4), 4);
 }
 
-TEST_F(SkinningTest, NoMoreNodesThanAskedForMoveEveryPointTogether) {
+TEST_P(SkinningForEveryK, NoMoreNodesThanAskedForMoveEveryPointTogether) {
   const auto points = random_points(50, 5);
   for (int k = 1; k <= max_influences; ++k)
     for (const int count : {1, 2, 3, k - 1, k, k + 1})
       if (count > 0) expect_same_as_reference(points, random_points(static_cast<std::size_t>(count), 6), k);
 }
 
-TEST_F(SkinningTest, OneNodeAloneWeighsOne) {
+TEST_P(SkinningTest, OneNodeAloneWeighsOne) {
   const Points points{{0, 0, 0}, {1, 2, 3}, {5, 5, 5}};
   for (const auto& found :
        {on_device(points, {{5, 5, 5}}, 4), compute_influences_reference(flat(points), {{5, 5, 5}}, 4)}) {
@@ -108,14 +134,14 @@ TEST_F(SkinningTest, OneNodeAloneWeighsOne) {
 }
 
 // Two nodes for four: at the nearer one closeness 1 and (1 - 1/2)^2, half-way the same for both.
-TEST_F(SkinningTest, WithoutANextNodeTwiceTheFarthestOneCounts) {
+TEST_P(SkinningTest, WithoutANextNodeTwiceTheFarthestOneCounts) {
   const auto found = on_device({{0, 0, 0}, {5, 0, 0}}, {{0, 0, 0}, {10, 0, 0}}, 4);
   EXPECT_THAT(found.nodes.host(), testing::ElementsAre(0, 1, 0, 1));
   EXPECT_THAT(found.weights.host(), testing::Pointwise(testing::FloatNear(1e-6F), {0.8F, 0.2F, 0.5F, 0.5F}));
   EXPECT_THAT(find_edges(found, 2), testing::ElementsAre(Edge{0, 1}, Edge{1, 0}));
 }
 
-TEST_F(SkinningTest, WeightsNeedANodeAndAPossibleNumberOfThem) {
+TEST_P(SkinningTest, WeightsNeedANodeAndAPossibleNumberOfThem) {
   const auto points = random_points(3, 5);
   EXPECT_THROW(on_device(points, random_points(30, 6), 0), DataError);
   EXPECT_THROW(on_device(points, random_points(30, 6), max_influences + 1), DataError);
@@ -123,7 +149,7 @@ TEST_F(SkinningTest, WeightsNeedANodeAndAPossibleNumberOfThem) {
   EXPECT_THROW(compute_influences_reference(flat(points), {}, 4), DataError);
 }
 
-TEST_F(SkinningTest, PicksTheInfluencesOfSomePoints) {
+TEST_P(SkinningTest, PicksTheInfluencesOfSomePoints) {
   const Influences all{2, Array<int>(std::vector<int>{0, 1, 2, 3, 4, 5}),
                        Array<float>(std::vector<float>{0.9F, 0.1F, 0.8F, 0.2F, 0.7F, 0.3F})};
   const Influences picked = pick_influences(device_, all, Array<int>(std::vector<int>{2, 0}));
@@ -132,23 +158,13 @@ TEST_F(SkinningTest, PicksTheInfluencesOfSomePoints) {
   EXPECT_THAT(picked.weights.host(), testing::ElementsAre(0.7F, 0.3F, 0.9F, 0.1F));
 }
 
-// Small whole numbers: every squared distance is exact, so that ties are ties on both sides.
-TEST_F(SkinningTest, TiesGoToTheLowerNodeOnBothSides) {
-  Points nodes, points;
-  for (int x = 0; x < 8; ++x)
-    for (int y = 0; y < 8; ++y) {
-      nodes.emplace_back(2 * x, 2 * y, 0);
-      points.emplace_back(2 * x + 1, 2 * y + 1, 0);
-    }
-  for (int k = 1; k <= 8; ++k) {
-    const auto found = on_device(points, nodes, k);
-    const auto expected = compute_influences_reference(flat(points), nodes, k);
-    EXPECT_EQ(found.nodes.host(), expected.nodes.host()) << "k = " << k;
-    EXPECT_THAT(found.weights.host(), testing::Pointwise(testing::FloatNear(1e-6F), expected.weights.host()));
-  }
+TEST_P(SkinningTest, TiesGoToTheLowerNodeOnBothSides) { expect_ties_to_go_to_the_lower_node(4); }
+
+TEST_P(SkinningForEveryK, TiesGoToTheLowerNodeOnBothSides) {
+  for (int k = 1; k <= 8; ++k) expect_ties_to_go_to_the_lower_node(k);
 }
 
-TEST_F(SkinningTest, EquallyFarNodesWeighTheSame) {
+TEST_P(SkinningTest, EquallyFarNodesWeighTheSame) {
   const Points nodes{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   const auto found = on_device({{0, 0, 0}}, nodes, 3);
   EXPECT_THAT(found.weights.host(), testing::Each(testing::FloatEq(1.0F / 3)));
@@ -157,7 +173,7 @@ TEST_F(SkinningTest, EquallyFarNodesWeighTheSame) {
 }
 
 // Distances 0, 3, 4 and (k + 1)-th 5: closeness 1, (2/5)^2, (1/5)^2.
-TEST_F(SkinningTest, WeightsAreThoseOfTheEquation) {
+TEST_P(SkinningTest, WeightsAreThoseOfTheEquation) {
   const auto found = on_device({{0, 0, 0}}, {{4, 0, 0}, {0, 5, 0}, {0, 0, 0}, {0, 0, 3}}, 3);
   EXPECT_THAT(found.nodes.host(), testing::ElementsAre(2, 3, 0));
   EXPECT_THAT(found.weights.host(), testing::ElementsAre(testing::FloatNear(1 / 1.2F, 1e-6F),
@@ -165,7 +181,7 @@ TEST_F(SkinningTest, WeightsAreThoseOfTheEquation) {
                                                          testing::FloatNear(0.04F / 1.2F, 1e-6F)));
 }
 
-TEST_F(SkinningTest, FlannFindsTheSameNodes) {
+TEST_P(SkinningForEveryK, FlannFindsTheSameNodes) {
   const auto points = random_points(500, 7), nodes = random_points(333, 8);
   auto node_values = flat(nodes), point_values = flat(points);
   flann::Index<flann::L2_Simple<float>> index(flann::Matrix<float>(node_values.data(), nodes.size(), 3),
@@ -184,13 +200,13 @@ TEST_F(SkinningTest, FlannFindsTheSameNodes) {
   }
 }
 
-TEST_F(SkinningTest, NoPointsGiveNoInfluences) {
+TEST_P(SkinningTest, NoPointsGiveNoInfluences) {
   const auto none = on_device({}, random_points(9, 1), 4);
   EXPECT_TRUE(none.nodes.host().empty());
   EXPECT_TRUE(none.weights.host().empty());
 }
 
-TEST_F(SkinningTest, TheSameBitsEveryTime) {
+TEST_P(SkinningTest, TheSameBitsEveryTime) {
   const auto points = random_points(1000, 9), nodes = random_points(100, 10);
   EXPECT_EQ(on_device(points, nodes, 4).weights.host(), on_device(points, nodes, 4).weights.host());
 }

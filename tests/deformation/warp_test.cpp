@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "tests/device/shapes.h"
+
 namespace pliant {
 namespace {
 
@@ -22,7 +24,7 @@ Array<float> array(const Columns& values) {
 }
 
 /// A cloud of points with unit normals, hung on random nodes among them.
-class WarpTest : public testing::Test {
+class WarpTest : public testing::TestWithParam<DeviceOptions> {
  protected:
   static constexpr Eigen::Index kPoints = 517;
   static constexpr int kNodes = 23;
@@ -72,19 +74,21 @@ class WarpTest : public testing::Test {
   }
 
   std::mt19937 generator_{5};
-  Device device_;
+  Device device_{"any", GetParam()};
   Columns nodes_;
   PointSet rest_;
   Influences influences_;
 };
 
-TEST_F(WarpTest, TheIdentityLeavesEveryBit) {
+INSTANTIATE_TEST_SUITE_P(Shapes, WarpTest, testing::ValuesIn(test::device_shapes));
+
+TEST_P(WarpTest, TheIdentityLeavesEveryBit) {
   const auto moved = on_device(Array<float>(std::vector<float>(affine_size * kNodes, 0)));
   EXPECT_EQ(moved.points.host(), rest_.points.host());
   EXPECT_LT(difference(moved.normals, columns(rest_.normals)), 2e-7);
 }
 
-TEST_F(WarpTest, ARigidMotionOfAllNodesMovesEverythingRigidly) {
+TEST_P(WarpTest, ARigidMotionOfAllNodesMovesEverythingRigidly) {
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
   const Eigen::Vector3d t(30, -200, 11);
@@ -100,7 +104,7 @@ TEST_F(WarpTest, ARigidMotionOfAllNodesMovesEverythingRigidly) {
 }
 
 // A normal stays perpendicular to what it was perpendicular to: under x -> A x it turns with A^-T.
-TEST_F(WarpTest, AShearAndAMirrorTurnNormalsWithTheCofactors) {
+TEST_P(WarpTest, AShearAndAMirrorTurnNormalsWithTheCofactors) {
   Eigen::Matrix3d shear;
   shear << 1, 0.7, 0, 0, 1.3, -0.2, 0.1, 0, 0.8;
   const Eigen::Matrix3d mirror = Eigen::Vector3d(-1, 1, 1).asDiagonal();
@@ -113,7 +117,7 @@ TEST_F(WarpTest, AShearAndAMirrorTurnNormalsWithTheCofactors) {
   }
 }
 
-TEST_F(WarpTest, TheDeviceAgreesWithTheReference) {
+TEST_P(WarpTest, TheDeviceAgreesWithTheReference) {
   for (const double size : {0.01, 0.3}) {
     const auto affine = random_forms(size, 100 * size);
     const auto moved = on_device(affine);
@@ -123,19 +127,19 @@ TEST_F(WarpTest, TheDeviceAgreesWithTheReference) {
   }
 }
 
-TEST_F(WarpTest, NormalsStayOfUnitLengthOrZero) {
+TEST_P(WarpTest, NormalsStayOfUnitLengthOrZero) {
   const auto moved = columns(on_device(random_forms(0.2, 10)).normals);
   for (Eigen::Index i = 0; i < kPoints; ++i)
     EXPECT_NEAR(moved.col(i).norm(), i == 7 ? 0 : 1, 1e-6) << "point " << i;
 }
 
-TEST_F(WarpTest, ACollapsedMatrixGivesNoNaN) {
+TEST_P(WarpTest, ACollapsedMatrixGivesNoNaN) {
   const auto moved = on_device(everywhere(Eigen::Matrix3d::Zero(), Eigen::Vector3d(1, 2, 3)));
   EXPECT_TRUE(columns(moved.normals).allFinite());
   EXPECT_TRUE(columns(moved.points).allFinite());
 }
 
-TEST_F(WarpTest, NothingIsMovedWhenThereIsNothing) {
+TEST_P(WarpTest, NothingIsMovedWhenThereIsNothing) {
   rest_ = {};
   influences_ = {4, {}, {}};
   EXPECT_TRUE(on_device(everywhere(Eigen::Matrix3d::Identity(), {0, 0, 1})).points.host().empty());

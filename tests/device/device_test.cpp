@@ -54,6 +54,28 @@ TEST(Device, IsChosenByKindOrByAnyPartOfItsNameOrPlatform) {
   EXPECT_EQ(Device(first.name).width(), first.is_gpu ? 1 : 16);
 }
 
+TEST(Device, ShapesItsKernelsByItsKindUnlessToldOtherwise) {
+  const auto first = Device::list().front();
+  EXPECT_EQ(Device(first.name).work_group_size(), first.is_gpu ? 128 : 1);
+  const Device told(first.name, {1, 8, ""});
+  EXPECT_EQ(told.width(), 1);
+  EXPECT_EQ(told.work_group_size(), 8);
+  const Device half_told(first.name, {{}, 8, ""});
+  EXPECT_EQ(half_told.width(), Device(first.name).width());
+}
+
+TEST(Device, RefusesShapesThatNoKernelHas) {
+  const auto refusal = [](const DeviceOptions& options) {
+    return device_error([&] { Device device("any", options); });
+  };
+  for (const int width : {-1, 0, 2, 32})
+    EXPECT_EQ(refusal({width, {}, ""}), "a vector width of " + std::to_string(width) + "; expected 1 or 16");
+  for (const int size : {-8, 0, 3, 96})
+    EXPECT_EQ(refusal({{}, size, ""}),
+              "a work-group of " + std::to_string(size) + " work-items; expected a power of two");
+  EXPECT_THAT(refusal({{}, 1 << 30, ""}), testing::HasSubstr("too large for " + Device().info().name));
+}
+
 TEST(Device, AnUnknownNameIsAnsweredWithTheKnownOnes) {
   const auto message = device_error([] { Device device("abacus"); });
   EXPECT_THAT(message, testing::HasSubstr("'abacus'"));
@@ -82,6 +104,15 @@ TEST(Device, KernelsSeeTheWidthAndTheirOptions) {
                              "-DANSWER=43");
   device.run("tell", other, 1, 1, told.write_device(device));
   EXPECT_THAT(told.host(), testing::ElementsAre(device.width(), 43)) << "other options, another program";
+}
+
+TEST(Device, BuildsEveryProgramWithItsOwnOptions) {
+  Device device("any", {1, {}, "-DANSWER=42"});
+  auto kernel =
+      device.kernel("kernel void tell(global int* out) { out[0] = WIDTH; out[1] = ANSWER; }", "tell");
+  Array<int> told(2);
+  device.run("tell", kernel, 1, 1, told.write_device(device));
+  EXPECT_THAT(told.host(), testing::ElementsAre(1, 42));
 }
 
 TEST(Device, CountsTheProgramsItBuilt) {

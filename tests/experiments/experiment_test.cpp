@@ -93,6 +93,25 @@ TEST_F(ExperimentTest, FromTextItIsNamedAfterTheText) {
   EXPECT_EQ(from_text("extends: base.yaml\nname: own", "text").name, "own");
 }
 
+TEST_F(ExperimentTest, SaysHowKernelsAreShaped) {
+  const DeviceOptions by_default = device_options(plan("").runs[0].values);
+  EXPECT_FALSE(by_default.vector_width || by_default.work_group_size);
+  const ExperimentPlan made =
+      plan("kernels: {vector_width: 1}\nruns: {wide: {kernels: {work_group_size: 64}}}");
+  const DeviceOptions of_run = device_options(made.runs[0].values);
+  EXPECT_EQ(of_run.vector_width, 1);
+  EXPECT_EQ(of_run.work_group_size, 64);
+}
+
+TEST_F(ExperimentTest, KernelsOfAShapeThatThereIsNotAreAnErrorWithItsPlace) {
+  EXPECT_THAT(
+      error("kernels: {vector_width: 4}"),
+      AllOf(HasSubstr("small.yaml:"), HasSubstr("'kernels' asks for a vector width of 4; expected 1 or 16")));
+  EXPECT_THAT(error("kernels: {work_group_size: 12}"), HasSubstr("expected a power of two"));
+  EXPECT_THAT(error("runs: {a: , b: {kernels: {work_group_size: 12}}}"),
+              HasSubstr("expected a power of two"));
+}
+
 TEST_F(ExperimentTest, QuickRunsAreThoseListed) {
   ExperimentPlan made = plan("runs: {a: , b: , c: }\nquick: [c, a]");
   made.keep_quick_runs();

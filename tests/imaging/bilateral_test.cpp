@@ -8,6 +8,7 @@
 #include <random>
 
 #include "framework/core/registry.h"
+#include "tests/device/shapes.h"
 #include "tests/geometry/made_depth.h"
 
 namespace pliant {
@@ -15,8 +16,8 @@ namespace {
 
 const Camera kCamera{300, 290, 84.5, 40, 165, 83};
 
-DepthImage filtered(const BilateralFilter& filter, const RgbdFrame& frame) {
-  Device device;
+DepthImage filtered(const BilateralFilter& filter, const RgbdFrame& frame, const DeviceOptions& shape = {}) {
+  Device device("any", shape);
   return to_image(*filter.filter(device, DepthMap(frame), Camera{}));
 }
 
@@ -30,19 +31,24 @@ double difference(const DepthImage& a, const DepthImage& b) {
   return worst;
 }
 
-TEST(Bilateral, AgreesWithTheReference) {
-  const RgbdFrame frame = made_depth(kCamera);
-  for (const auto& filter :
-       {BilateralFilter(4.5, 30, 6), BilateralFilter(1, 3, 2), BilateralFilter(20, 500, max_window_radius)}) {
-    EXPECT_LT(difference(filtered(filter, frame), filter.filter_reference(frame.depth)), 5e-3);
+class BilateralKernel : public testing::TestWithParam<DeviceOptions> {
+ protected:
+  static void expect_agreement(const BilateralFilter& filter, const RgbdFrame& frame) {
+    EXPECT_LT(difference(filtered(filter, frame, GetParam()), filter.filter_reference(frame.depth)), 5e-3);
   }
+};
+
+TEST_P(BilateralKernel, AgreesWithTheReference) {
+  for (const auto& filter :
+       {BilateralFilter(4.5, 30, 6), BilateralFilter(1, 3, 2), BilateralFilter(20, 500, max_window_radius)})
+    expect_agreement(filter, made_depth(kCamera));
 }
 
-TEST(Bilateral, AgreesWithTheReferenceOnAnImageSmallerThanItsWindow) {
-  const RgbdFrame frame = made_depth(Camera{300, 290, 2, 1, 5, 3});
-  const BilateralFilter filter(4.5, 30, 6);
-  EXPECT_LT(difference(filtered(filter, frame), filter.filter_reference(frame.depth)), 5e-3);
+TEST_P(BilateralKernel, AgreesWithTheReferenceOnAnImageSmallerThanItsWindow) {
+  expect_agreement(BilateralFilter(4.5, 30, 6), made_depth(Camera{300, 290, 2, 1, 5, 3}));
 }
+
+INSTANTIATE_TEST_SUITE_P(Shapes, BilateralKernel, testing::ValuesIn(test::device_shapes));
 
 TEST(Bilateral, TakesOutNoiseAndKeepsSteps) {
   const DepthImage smooth = filtered(BilateralFilter(4.5, 30, 6), made_depth(kCamera));

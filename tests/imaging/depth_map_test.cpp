@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "framework/geometry/surface.h"
+#include "tests/device/shapes.h"
 #include "tests/geometry/made_depth.h"
 
 namespace pliant {
@@ -28,10 +29,17 @@ struct Difference {
   int normals = 0;   ///< pixels where both have one
 };
 
+class DeviceSurfaceMap : public testing::TestWithParam<DeviceOptions> {
+ protected:
+  static Difference compare(const RgbdFrame& frame, int radius = default_normal_radius,
+                            float depth_step = default_depth_step);
+};
+
+INSTANTIATE_TEST_SUITE_P(Shapes, DeviceSurfaceMap, testing::ValuesIn(test::device_shapes));
+
 /// How far the device's map lies from the reference's.
-Difference compare(const RgbdFrame& frame, int radius = default_normal_radius,
-                   float depth_step = default_depth_step) {
-  Device device;
+Difference DeviceSurfaceMap::compare(const RgbdFrame& frame, int radius, float depth_step) {
+  Device device("any", GetParam());
   const SurfaceImage expected = make_surface_image(frame, kCamera, radius, depth_step);
   const PointSet map = make_surface_map(device, DepthMap(frame), kCamera, radius, depth_step);
   const auto points = unflatten(map.points);
@@ -83,7 +91,7 @@ TEST(DepthMap, MayBeEmpty) {
   EXPECT_TRUE(make_surface_map(device, map, Camera{1, 1, 0, 0, 0, 0}).points.empty());
 }
 
-TEST(DeviceSurfaceMap, AgreesWithTheReference) {
+TEST_P(DeviceSurfaceMap, AgreesWithTheReference) {
   const Difference worst = compare(made_depth(kCamera));
   EXPECT_LT(worst.point, 1e-3);
   EXPECT_LT(worst.angle, 0.1);
@@ -91,7 +99,7 @@ TEST(DeviceSurfaceMap, AgreesWithTheReference) {
   EXPECT_GT(worst.normals, 10000);
 }
 
-TEST(DeviceSurfaceMap, AgreesWithTheReferenceForOtherWindows) {
+TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceForOtherWindows) {
   for (const int radius : {1, 4, max_window_radius}) {
     const Difference worst = compare(made_depth(kCamera), radius, 8);
     EXPECT_LT(worst.angle, 0.1) << radius;
@@ -99,7 +107,7 @@ TEST(DeviceSurfaceMap, AgreesWithTheReferenceForOtherWindows) {
   }
 }
 
-TEST(DeviceSurfaceMap, AgreesWithTheReferenceInsideAMask) {
+TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceInsideAMask) {
   RgbdFrame frame = made_depth(kCamera);
   frame.mask = MaskImage(kCamera.width, kCamera.height);
   for (int v = 20; v < 60; ++v) {
@@ -111,7 +119,7 @@ TEST(DeviceSurfaceMap, AgreesWithTheReferenceInsideAMask) {
   EXPECT_GT(worst.normals, 1500);
 }
 
-TEST(DeviceSurfaceMap, AgreesWithTheReferenceOnASteepPlane) {
+TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceOnASteepPlane) {
   RgbdFrame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
   for (int v = 0; v < kCamera.height; ++v) {
     for (int u = 0; u < kCamera.width; ++u) frame.depth(u, v) = static_cast<float>(1500 / (1 + 0.02 * u));
@@ -121,7 +129,7 @@ TEST(DeviceSurfaceMap, AgreesWithTheReferenceOnASteepPlane) {
   EXPECT_EQ(worst.validity, 0);
 }
 
-TEST(DeviceSurfaceMap, TooFewOrCollinearNeighboursGiveNoNormal) {
+TEST_P(DeviceSurfaceMap, TooFewOrCollinearNeighboursGiveNoNormal) {
   RgbdFrame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
   for (const auto& [u, v] : {std::pair(50, 50), {51, 50}, {50, 51}}) frame.depth(u, v) = 800;
   for (int u = 90; u < 100; ++u) frame.depth(u, 50) = static_cast<float>(800 + u);
@@ -132,7 +140,7 @@ TEST(DeviceSurfaceMap, TooFewOrCollinearNeighboursGiveNoNormal) {
   EXPECT_EQ(worst.validity, 0);
 }
 
-TEST(DeviceSurfaceMap, AgreesWithTheReferenceWhereDepthIsSparse) {
+TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceWhereDepthIsSparse) {
   for (const int step : {2, 3, 4, 8, 9}) {
     RgbdFrame frame = made_depth(kCamera);
     for (int v = 0; v < kCamera.height; ++v) {
@@ -149,9 +157,9 @@ TEST(DeviceSurfaceMap, AgreesWithTheReferenceWhereDepthIsSparse) {
   }
 }
 
-TEST(DeviceSurfaceMap, GivesTheSameBitsTwice) {
+TEST_P(DeviceSurfaceMap, GivesTheSameBitsTwice) {
   const RgbdFrame frame = made_depth(kCamera);
-  Device first, second;
+  Device first("any", GetParam()), second("any", GetParam());
   const PointSet a = make_surface_map(first, DepthMap(frame), kCamera);
   const PointSet b = make_surface_map(second, DepthMap(frame), kCamera);
   EXPECT_EQ(a.points.host(), b.points.host());

@@ -12,6 +12,7 @@
 
 #include "framework/imaging/depth_map.h"
 #include "framework/pose/rigid_equation.h"
+#include "tests/device/shapes.h"
 
 // A lumpy ellipsoid, seen by a camera before and after a rigid motion.
 namespace pliant {
@@ -122,8 +123,8 @@ struct Matching {
 };
 
 Matching match_both_ways(View& source, View& target, const Eigen::Isometry3d& pose,
-                         const RigidIcpOptions& options) {
-  Device device;
+                         const RigidIcpOptions& options, const DeviceOptions& shape) {
+  Device device("any", shape);
   RigidIcp icp(device, options);
   Matching matching;
   matching.device = icp.equations(source.surface(), target.surface(), pose);
@@ -148,30 +149,34 @@ void expect_alike(const Matching& matching) {
   EXPECT_NEAR(two_way.mean, two_way_reference.mean, few_pixels * two_way_reference.mean);
 }
 
-TEST(RigidIcp, MatchesAsItsReference) {
-  Device device;
+class RigidIcpMatching : public testing::TestWithParam<DeviceOptions> {
+ protected:
+  Device device{"any", GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(Shapes, RigidIcpMatching, testing::ValuesIn(test::device_shapes));
+
+TEST_P(RigidIcpMatching, IsThatOfItsReference) {
   View source(device, seen(Eigen::Isometry3d::Identity()), camera, 11);  // few enough to be taken whole
   View target(device, seen(motion_of(4, -6, 3, {6, -4, 9})), camera, 11);
-  const Matching matching = match_both_ways(source, target, motion_of(2, -3, 0, {3, 0, 5}), {});
+  const Matching matching = match_both_ways(source, target, motion_of(2, -3, 0, {3, 0, 5}), {}, GetParam());
   EXPECT_GT(matching.reference.matches, 100);
   EXPECT_LT(matching.reference.matches, matching.reference.landed) << "some are rejected";
   EXPECT_GT(matching.two_way_reference.mean, 1);
   expect_alike(matching);
 }
 
-TEST(RigidIcp, MatchesAsItsReferenceWhatLeavesTheViewOrFacesAway) {
-  Device device;
+TEST_P(RigidIcpMatching, IsThatOfItsReferenceWhereSomeLeavesTheViewOrFacesAway) {
   View source(device, seen(Eigen::Isometry3d::Identity()), camera, 11);
   View target(device, seen(motion_of(0, 10, 0, {185, 0, 0})), camera, 11);
   const Matching matching = match_both_ways(source, target, motion_of(0, 50, 0, {195, 0, 0}),
-                                            {.max_distance = 60, .max_angle = 60 * degree});
+                                            {.max_distance = 60, .max_angle = 60 * degree}, GetParam());
   EXPECT_GT(matching.reference.matches, 50);
   EXPECT_LT(matching.reference.landed, static_cast<int>(source.surface().pixels.size()) * 3 / 4);
   expect_alike(matching);
 }
 
-TEST(RigidIcp, TakesNothingThatIsNotFinite) {
-  Device device;
+TEST_P(RigidIcpMatching, TakesNothingThatIsNotFinite) {
   View source(device, seen(Eigen::Isometry3d::Identity()), camera, 11);
   View target(device, seen(motion_of(0, 3, 0, {0, 0, 3})), camera, 11);
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
@@ -184,7 +189,7 @@ TEST(RigidIcp, TakesNothingThatIsNotFinite) {
       normals[3 * ((pixel + 3) % (points.size() / 3))] = bad[pixel % 3];
     }
   }
-  const Matching matching = match_both_ways(source, target, Eigen::Isometry3d::Identity(), {});
+  const Matching matching = match_both_ways(source, target, Eigen::Isometry3d::Identity(), {}, GetParam());
   EXPECT_GT(matching.reference.matches, 100);
   EXPECT_TRUE(matching.device.JtJ.allFinite());
   expect_alike(matching);
@@ -260,6 +265,21 @@ TEST(RigidIcp, APartThatDeformsDoesNotPullAtTheRest) {
   const double trimmed = difference(align(source, target).pose, turn);
   EXPECT_LT(trimmed, 1.5);
   EXPECT_LT(trimmed, 0.5 * difference(align(source, target, constant).pose, turn));
+}
+
+TEST(RigidIcp, FindsTheSameInEveryShapeOfItsKernels) {
+  const RgbdFrame source = seen(Eigen::Isometry3d::Identity());
+  const RgbdFrame target = seen(motion_of(20, 20, 0, {30, 20, 40}));
+  const RigidIcpResult expected = align(source, target);
+  for (const DeviceOptions& shape : test::device_shapes) {
+    Device device("any", shape);
+    const RigidIcpResult found = RigidIcp(device, {})
+                                     .align(View(device, source).surface(), View(device, target).surface(),
+                                            Eigen::Isometry3d::Identity());
+    EXPECT_LT(difference(found.pose, expected.pose), 0.05);
+    EXPECT_NEAR(found.after.mean, expected.after.mean, 0.01);
+    EXPECT_EQ(found.converged, expected.converged);
+  }
 }
 
 TEST(RigidIcp, SameBits) {

@@ -8,6 +8,7 @@
 
 #include "framework/registration/projective.h"
 #include "framework/registration/residual.h"
+#include "tests/device/shapes.h"
 
 namespace pliant {
 
@@ -64,10 +65,14 @@ ProjectiveOptions limits(double max_distance, double max_angle, int search_radiu
   return options;
 }
 
-class Projective : public ::testing::TestWithParam<ProjectiveOptions> {};
+/// What a method does with a target, and the shape of the kernels that do it.
+class Projective : public ::testing::TestWithParam<std::tuple<ProjectiveOptions, DeviceOptions>> {
+ protected:
+  const ProjectiveCorrespondence projective{std::get<0>(GetParam())};
+  Device device{"any", std::get<1>(GetParam())};
+};
 
 TEST_P(Projective, TheDeviceAgreesWithTheReference) {
-  Device device;
   std::mt19937 random(11);
   const SurfaceMap target = make_target(random);
   const PointSet moved = make_moved(random, 900);
@@ -87,7 +92,6 @@ TEST_P(Projective, TheDeviceAgreesWithTheReference) {
   Constraints constraints = empty();
   Constraints expected = empty();
   const Array<int> chosen(selected);
-  const ProjectiveCorrespondence projective(GetParam());
   projective.match(device, moved, chosen, target, constraints);
   projective.match_reference(moved, chosen, target, expected);
   int matched = 0;
@@ -117,7 +121,9 @@ std::vector<ProjectiveOptions> kinds_of_options() {
   return kinds;
 }
 
-INSTANTIATE_TEST_SUITE_P(Options, Projective, ::testing::ValuesIn(kinds_of_options()));
+INSTANTIATE_TEST_SUITE_P(Options, Projective,
+                         ::testing::Combine(::testing::ValuesIn(kinds_of_options()),
+                                            ::testing::ValuesIn(test::device_shapes)));
 
 TEST(ProjectiveMatch, LooksAroundOnlyWhereTheProjectedPixelIsRejected) {
   Device device;
@@ -255,11 +261,10 @@ Residual expect_agreement(Device& device, const ProjectiveCorrespondence& projec
 }
 
 TEST_P(Projective, MeasuresLikeItsReference) {
-  Device device;
   std::mt19937 random(5);
   const SurfaceMap target = make_target(random);
   const PointSet moved = make_moved(random, 1111);
-  const Residual residual = expect_agreement(device, ProjectiveCorrespondence(GetParam()), target, moved);
+  const Residual residual = expect_agreement(device, projective, target, moved);
   EXPECT_GT(residual.landed, 300);
   EXPECT_GT(residual.matched, 50);
   EXPECT_LT(residual.matched, residual.landed);
