@@ -28,9 +28,9 @@ std::vector<std::string> SolverTest::all_solvers(const std::string& options) con
   return all;
 }
 
-SolverSummary SolverTest::solve(Problem& problem, const std::string& yaml) {
+SolverSummary SolverTest::solve(Problem& problem, const std::string& yaml, Device& device) const {
   const auto solver = make<Solver>(registry_, yaml);
-  const auto bound = solver->bind(problem, device_);
+  const auto bound = solver->bind(problem, device);
   bound->solve();
   return bound->summaries().at(0);
 }

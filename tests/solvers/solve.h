@@ -20,7 +20,8 @@ class SolverTest : public testing::Test {
       const std::string& options = "tolerance: 1e-8, max_iterations: 200") const;
 
   /// Solves `problem` from where it stands with the solver written as `yaml`.
-  SolverSummary solve(Problem& problem, const std::string& yaml);
+  SolverSummary solve(Problem& problem, const std::string& yaml) { return solve(problem, yaml, device_); }
+  SolverSummary solve(Problem& problem, const std::string& yaml, Device& device) const;
 
   Problem sheet_problem(const Sheet& sheet) const { return make_sheet_problem(sheet, energies_); }
 

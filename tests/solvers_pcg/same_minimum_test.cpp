@@ -4,6 +4,7 @@
 
 #include "framework/core/error.h"
 #include "framework/deformation/warp.h"
+#include "tests/device/shapes.h"
 #include "tests/problem/components.h"
 #include "tests/solvers/solve.h"
 #include "tests/solvers_pcg/test_energies/test_energies.h"
@@ -128,6 +129,44 @@ TEST_F(EveryLinearSolver, StartsFromWhereTheProblemStands) {
     auto problem = problem_of({.nodes = 20, .constraints = 300, .seed = 4}, {to_plane()});
     randomise_unknowns(problem, 0.1, 10, 3);
     return problem;
+  });
+}
+
+/// Work-items that share a system, as on GPUs.
+class LinearSolverInAGroup : public EveryLinearSolver {
+ protected:
+  void expect_same_as_alone(const std::string& linear_solver, const MakeProblem& make) {
+    SCOPED_TRACE(linear_solver);
+    auto alone = make();
+    auto together = make();
+    solve(alone, with(linear_solver));
+    const auto summary = solve(together, with(linear_solver), group_);
+    EXPECT_EQ(summary.termination, "converged");
+    EXPECT_NEAR(together.energy(), alone.energy(), 1e-5 * alone.energy());
+    EXPECT_NEAR(summary.final_energy, together.energy(), 1e-5 * together.energy());
+  }
+
+  Device group_{"any", gpu_shape};
+};
+
+// Sixteen nodes at once: of 17 most of eight work-items have none, of 150 some have twice as many as others.
+TEST_F(LinearSolverInAGroup, FindsWhatOneWorkItemFinds) {
+  for (const auto& name : {"structured", "block_pcg"})
+    for (const int nodes : {17, 150})
+      expect_same_as_alone(name, [&] { return sheet_problem({.nodes = nodes, .constraints = 900}); });
+}
+
+TEST_F(LinearSolverInAGroup, TakesTermsOfConstraintsThatCoupleTheAxes) {
+  expect_same_as_alone("structured",
+                       [&] { return problem_of({.nodes = 150, .constraints = 900}, {to_plane()}); });
+}
+
+TEST_F(LinearSolverInAGroup, SolvesForRigidNodes) {
+  expect_same_as_alone("block_pcg", [&] {
+    const Sheet sheet{.nodes = 40, .constraints = 400};
+    auto graph = make_sheet_graph(sheet);
+    auto terms = make_terms(energies_, make_sheet_constraints(sheet, graph));
+    return Problem(std::move(graph), std::move(terms), 1, quaternion_transform());
   });
 }
 
