@@ -82,7 +82,7 @@ TEST_F(ExperimentTest, AWrongValueOfASweepIsToldWhereItStands) {
 TEST_F(ExperimentTest, FromTextItIsNamedAfterTheText) {
   plan("");  // writes base.yaml
   const auto from_text = [&](const std::string& text, const std::string& name) {
-    const ConfigText source{text, name, file("base.yaml").parent_path()};
+    const ConfigText source{text, name, std::filesystem::path(file("base.yaml")).parent_path()};
     return plan_experiment({source, {}, {}, {PLIANT_EXPERIMENTS}}, registry_);
   };
   const ExperimentPlan made = from_text("extends: base.yaml\nseed: 3", "from the editor.yaml");
