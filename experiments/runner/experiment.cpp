@@ -113,7 +113,7 @@ DeviceOptions device_options(const Parameters& experiment) {
   const auto number = [&](const std::string& name) {
     return kernels.has(name) ? std::optional(static_cast<int>(kernels.integer(name))) : std::nullopt;
   };
-  const DeviceOptions options{number("vector_width"), number("work_group_size"), ""};
+  DeviceOptions options{number("vector_width"), number("work_group_size"), ""};
   const std::string wrong = Device::complaint(options);
   if (!wrong.empty()) throw ConfigError(fmt::format("{}: 'kernels' asks for {}", kernels.place(), wrong));
   return options;
