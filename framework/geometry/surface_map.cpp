@@ -30,17 +30,20 @@ Eigen::Vector3f finite_or_none(const Array<float>& vectors, std::size_t index) {
   return (vector.array().abs() < farthest_depth).all() ? Eigen::Vector3f(vector) : Eigen::Vector3f::Zero();
 }
 
-std::optional<std::size_t> seen_pixel_reference(const SurfaceMap& map, const Eigen::Vector3f& point) {
+std::optional<std::size_t> pixel_reference(const Camera& camera, const Eigen::Vector3f& point) {
   if (!(point.z() > 0)) return std::nullopt;
-  const cl_float4 camera = pinhole(map.camera);
-  const float u = std::floor(camera.s[0] * point.x() / point.z() + (camera.s[2] + 0.5F));
-  const float v = std::floor(camera.s[1] * point.y() / point.z() + (camera.s[3] + 0.5F));
-  const bool is_inside = u >= 0 && v >= 0 && u < static_cast<float>(map.camera.width) &&
-                         v < static_cast<float>(map.camera.height);
+  const cl_float4 values = pinhole(camera);
+  const float u = std::floor(values.s[0] * point.x() / point.z() + (values.s[2] + 0.5F));
+  const float v = std::floor(values.s[1] * point.y() / point.z() + (values.s[3] + 0.5F));
+  const bool is_inside =
+      u >= 0 && v >= 0 && u < static_cast<float>(camera.width) && v < static_cast<float>(camera.height);
   if (!is_inside) return std::nullopt;
-  const auto pixel =
-      static_cast<std::size_t>(v) * static_cast<std::size_t>(map.camera.width) + static_cast<std::size_t>(u);
-  if (!(finite_or_none(map.points, pixel).z() > 0)) return std::nullopt;
+  return static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(u);
+}
+
+std::optional<std::size_t> seen_pixel_reference(const SurfaceMap& map, const Eigen::Vector3f& point) {
+  const auto pixel = pixel_reference(map.camera, point);
+  if (!pixel || !(finite_or_none(map.points, *pixel).z() > 0)) return std::nullopt;
   return pixel;
 }
 

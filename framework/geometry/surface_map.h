@@ -33,6 +33,10 @@ cl_int2 image_size(const Camera& camera);
 /// A vector of a map for plain C++ references: (0, 0, 0) unless it is finite and so is its square.
 Eigen::Vector3f finite_or_none(const Array<float>& vectors, std::size_t index);
 
+/// Plain C++ reference of projection: row-major offset of the pixel that a point (mm, camera frame) projects
+/// to; none outside of the image.
+std::optional<std::size_t> pixel_reference(const Camera& camera, const Eigen::Vector3f& point);
+
 /// Plain C++ reference of projective association [thesis 4.2]: row-major offset of the pixel that the point
 /// (mm, camera frame) projects to; none when that lies outside or has no point.
 std::optional<std::size_t> seen_pixel_reference(const SurfaceMap& map, const Eigen::Vector3f& point);

@@ -309,18 +309,6 @@ struct PlainMotion {
         to(pivot.cast<float>()) {}
 };
 
-/// The pixel that a point projects to, none outside of the image.
-std::optional<std::size_t> pixel_of(const Eigen::Vector3f& point, const Camera& camera) {
-  if (!(point.z() > 0)) return std::nullopt;
-  const cl_float4 pinhole_of_camera = pinhole(camera);
-  const auto& [fx, fy, cx, cy] = pinhole_of_camera.s;
-  const float u = std::floor(fx * point.x() / point.z() + (cx + 0.5F));
-  const float v = std::floor(fy * point.y() / point.z() + (cy + 0.5F));
-  if (!(u >= 0 && v >= 0 && u < static_cast<float>(camera.width) && v < static_cast<float>(camera.height)))
-    return std::nullopt;
-  return static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(u);
-}
-
 struct Direction {
   double sum = 0;
   int known = 0;
@@ -335,7 +323,7 @@ Direction compare_reference(const SeenSurface& surface, const PlainMotion& motio
     const Eigen::Vector3f moved = motion.turn * (p - motion.from) + motion.to;
     const Eigen::Vector3f normal =
         motion.turn * finite_or_none(surface.normals, static_cast<std::size_t>(sample));
-    const auto pixel = pixel_of(moved, map.camera);
+    const auto pixel = pixel_reference(map.camera, moved);
     if (!pixel || normal.dot(moved) > 0) continue;
     const Eigen::Vector3f q = finite_or_none(map.points, *pixel);
     direction.sum += q.z() > 0 ? std::min<double>((moved - q).norm(), cut) : cut;
@@ -362,7 +350,7 @@ RigidEquations rigid_equations_reference(const SeenSurface& source, const SeenSu
     const Eigen::Vector3f own =
         motion.turn * finite_or_none(source.normals, static_cast<std::size_t>(sample));
     const Eigen::Vector3f arm = motion.turn * (p - motion.from);
-    const auto pixel = pixel_of(arm + motion.to, target.camera);
+    const auto pixel = pixel_reference(target.camera, arm + motion.to);
     if (!(p.z() > 0) || !pixel) continue;
     const Eigen::Vector3f q = finite_or_none(target.points, *pixel);
     if (!(q.z() > 0)) continue;

@@ -55,8 +55,8 @@ void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, cons
              selected.device(device), constraints.points.device(device), moved.points.device(device),
              moved.normals.device(device), pinhole(target.camera), image_size(target.camera),
              target.points.device(device), target.normals.device(device), max_distance_, least_cosine_,
-             least_facing_, cl_int{options_.search_radius}, cl_int{options_.steps}, cl_int{options_.rim},
-             cl_int{options_.symmetric}, constraints.data.write_device(device),
+             least_facing_, cl_int{hole_radius()}, cl_int{options_.search_radius}, cl_int{options_.steps},
+             cl_int{options_.rim}, cl_int{options_.symmetric}, constraints.data.write_device(device),
              constraints.confidence.write_device(device));
 }
 

@@ -191,7 +191,7 @@ Vector mean_normals(Vector a, Vector b) {
 kernel void match(int count, global const int* selected, global const float* rest, global const float* moved,
                   global const float* normals, float4 camera, int2 size, global const float* target_points,
                   global const float* target_normals, float max_distance, float least_cosine,
-                  float least_facing, int search_radius, int steps, int rim, int symmetric,
+                  float least_facing, int hole_radius, int search_radius, int steps, int rim, int symmetric,
                   global float* data, global float* confidence) {
   const int first = get_global_id(0) * WIDTH;
   if (first >= count) return;
@@ -200,12 +200,10 @@ kernel void match(int count, global const int* selected, global const float* res
   const Vector n = load_selected(selected + first, there, normals);
   const Truth facing = are_facing(p, n, least_facing);
   Pixels pixels = select(NONE, target_pixels(p, camera, size, target_points), facing);
-  if (steps > 0) {
-    // As hole_radius() says.
-    pixels = look_around(pixels, facing, p, n, 1, camera, size, target_points, target_normals, max_distance,
-                         least_cosine);
-    pixels = closest_pixels(p, pixels, steps, camera, size, target_points, target_normals);
-  }
+  if (hole_radius > 0)
+    pixels = look_around(pixels, facing, p, n, hole_radius, camera, size, target_points, target_normals,
+                         max_distance, least_cosine);
+  if (steps > 0) pixels = closest_pixels(p, pixels, steps, camera, size, target_points, target_normals);
   pixels = select(NONE, pixels,
                   are_acceptable(p, n, gather(pixels, target_points), gather(pixels, target_normals),
                                  max_distance, least_cosine));
@@ -247,10 +245,10 @@ kernel void find_in_force(int count, global const float* confidence, global int*
 }
 
 // Distance of each point to the target point at its pixel, or where there is none to the nearest one within
-// `radius` pixels, where it may be seen and that is acceptable, else -1.
+// `hole_radius` pixels, where it may be seen and that is acceptable, else -1.
 kernel void measure(int count, global const float* moved, global const float* normals, float4 camera,
                     int2 size, global const float* target_points, global const float* target_normals,
-                    float max_distance, float least_cosine, float least_facing, int radius,
+                    float max_distance, float least_cosine, float least_facing, int hole_radius,
                     global float* residuals) {
   const int first = get_global_id(0) * WIDTH;
   if (first >= count) return;
@@ -258,8 +256,8 @@ kernel void measure(int count, global const float* moved, global const float* no
   const Vector n = load_vectors(normals + 3 * first, count - first);
   const Truth facing = are_facing(p, n, least_facing);
   Pixels pixels = target_pixels(p, camera, size, target_points);
-  if (radius > 0)
-    pixels = look_around(pixels, facing, p, n, radius, camera, size, target_points, target_normals,
+  if (hole_radius > 0)
+    pixels = look_around(pixels, facing, p, n, hole_radius, camera, size, target_points, target_normals,
                          max_distance, least_cosine);
   const Vector q = gather(pixels, target_points);
   const Truth is_known =

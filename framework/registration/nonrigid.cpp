@@ -23,6 +23,15 @@ PointSet unwritten(const PointSet& rest) {
   return {Array<float>(rest.points.size()), Array<float>(rest.normals.size())};
 }
 
+/// Of each value, whether `holds` of it.
+template <class Predicate>
+std::vector<std::uint8_t> flags(const Array<float>& values, Predicate holds) {
+  std::vector<std::uint8_t> found(values.size());
+  std::transform(values.host().begin(), values.host().end(), found.begin(),
+                 [&](float value) { return static_cast<std::uint8_t>(holds(value)); });
+  return found;
+}
+
 /// One run of the loop.
 class Loop {
  public:
@@ -134,15 +143,9 @@ class Loop {
       warp(device_, input_.rest, best_.graph->influences, best_.graph->node_points, best_.unknowns,
            registered_);
     }
-    matched_ = is_there && method_.correspondence->measures_matches() ? with_residual() : find_matched();
-  }
-
-  std::vector<std::uint8_t> with_residual() const {
-    const auto& residuals = meter_.per_point().host();
-    std::vector<std::uint8_t> known(residuals.size());
-    std::transform(residuals.begin(), residuals.end(), known.begin(),
-                   [](float residual) { return static_cast<std::uint8_t>(residual >= 0); });
-    return known;
+    matched_ = is_there && method_.correspondence->measures_matches()
+                   ? flags(meter_.per_point(), [](float residual) { return residual >= 0; })
+                   : find_matched();
   }
 
   std::vector<std::uint8_t> find_matched() {
@@ -155,11 +158,7 @@ class Loop {
     std::iota(all.begin(), all.end(), 0);
     method_.correspondence->match(device_, registered_, Array<int>(std::move(all)), input_.target,
                                   constraints);
-    const auto& confidence = constraints.confidence.host();
-    std::vector<std::uint8_t> matched(confidence.size());
-    std::transform(confidence.begin(), confidence.end(), matched.begin(),
-                   [](float value) { return static_cast<std::uint8_t>(value > 0); });
-    return matched;
+    return flags(constraints.confidence, [](float confidence) { return confidence > 0; });
   }
 
   void measure_start() {
@@ -205,7 +204,7 @@ class Loop {
       record(residual);
   }
 
-  /// Whether any energy asks a point to go anywhere. Waits for the device: asked once a model, and when
+  /// Whether any energy asks a point to go anywhere. Waits for the device: asked once a problem, and when
   /// nothing is matched.
   bool is_pulled() {
     const auto& terms = problem().terms();

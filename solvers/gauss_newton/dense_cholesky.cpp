@@ -49,8 +49,8 @@ class DenseCholeskySteps : public StepSolver {
  private:
   std::size_t size() const { return static_cast<std::size_t>(n_); }
   cl::Kernel kernel(const char* name) {
-    return device_.kernel(with_reductions(embedded::solvers_gauss_newton_dense_cholesky_cl), name,
-                          fmt::format("-DSTRIDE={}", equations_.stride()));
+    static const std::string source = with_reductions(embedded::solvers_gauss_newton_dense_cholesky_cl);
+    return device_.kernel(source, name, fmt::format("-DSTRIDE={}", equations_.stride()));
   }
   // The inverse of diagonal block k inside the buffer of all of them.
   cl::Buffer at_block(cl::Buffer& buffer, int k) const {

@@ -33,7 +33,8 @@ class StepwiseMinimiser : public Minimiser {
 
  private:
   cl::Kernel kernel(const char* name) {
-    return device_.kernel(with_reductions(embedded::solvers_gauss_newton_stepwise_cl), name);
+    static const std::string source = with_reductions(embedded::solvers_gauss_newton_stepwise_cl);
+    return device_.kernel(source, name);
   }
 
   cl::Kernel transform_kernel(const char* name) {
