@@ -9,8 +9,7 @@
 namespace pliant {
 
 /// Values that live on the host, on one device, or on both; each side is brought up to date when it is
-/// asked for. Reading on the host after the device wrote waits for the device. A copy shares nothing with its
-/// original; it is made where the values are, and waits for nothing.
+/// asked for. Reading on the host after the device wrote waits for the device. Copied only by clone().
 template <class T>
 class Array {
  public:
@@ -18,20 +17,26 @@ class Array {
   explicit Array(std::vector<T> values) : host_(std::move(values)), size_(host_.size()) {}
   /// Uninitialised values that a device will write.
   explicit Array(std::size_t size) : size_(size), host_is_current_(size == 0) {}
-  Array(const Array& other)
-      : size_(other.size_), device_(other.device_), host_is_current_(other.host_is_current_) {
-    if (host_is_current_ || device_ == nullptr) {
-      host_ = other.host();
-      host_is_current_ = true;
-    } else {
-      buffer_ = device_->copy(other.buffer_, bytes());
-      device_is_current_ = true;
-    }
-  }
+  Array(const Array&) = delete;
   Array(Array&&) noexcept = default;
-  Array& operator=(const Array& other) { return *this = Array(other); }
+  Array& operator=(const Array&) = delete;
   Array& operator=(Array&&) noexcept = default;
   ~Array() = default;
+
+  /// The same values, which share nothing with these; the copy is made where the values are, and waits for
+  /// nothing.
+  Array clone() const {
+    Array copy(size_);
+    copy.device_ = device_;
+    if (host_is_current_ || device_ == nullptr) {
+      copy.host_ = host();
+      copy.host_is_current_ = true;
+    } else {
+      copy.buffer_ = device_->copy(buffer_, bytes());
+      copy.device_is_current_ = true;
+    }
+    return copy;
+  }
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -61,7 +66,7 @@ class Array {
   const cl::Buffer& device(Device& device) const {
     if (device_ != nullptr && device_ != &device) host();  // devices exchange through the host
     if (device_ != &device || !device_is_current_) {
-      // A fresh buffer rather than a write into the old one, which would wait for the device.
+      // Another buffer rather than the old one, whose values a clone or a kernel may still read.
       buffer_ = host_is_current_ ? device.upload(host_.data(), bytes()) : device.allocate(bytes());
       device_ = &device;
       device_is_current_ = true;

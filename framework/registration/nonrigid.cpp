@@ -47,7 +47,7 @@ class Loop {
         follows_all_(!nodes_->is_fixed() || !samples_->is_fixed()),
         sampled_(follows_all_ ? PointSet{} : pick_points(device, input.rest, Array<int>(samples_->points()))),
         matched_problem_(make_problem()),
-        moved_(followed()),
+        moved_{followed().points.clone(), followed().normals.clone()},
         trust_(std::min(1.0, std::pow(method.trusted_noise / input.noise, 2))),
         meter_(device, *method.correspondence, input.target, moved_.points.size() / 3, method.stopping.cut) {}
 
@@ -70,7 +70,7 @@ class Loop {
     }
     collect_summaries();
     history_.resize(static_cast<std::size_t>(iterations_) + 1);  // without solves that have failed
-    if (!is_after_schedule(history_.size() - 1)) best_ = best_of_all_;
+    if (!is_after_schedule(history_.size() - 1)) best_ = std::move(best_of_all_);
     deform_best();
   }
 
@@ -123,7 +123,7 @@ class Loop {
     const double enough = (1 - method_.stopping.min_gain) * history_.front().robust;
     const auto keep_if_better = [&](State& best) {
       const bool is_better = residual.robust < enough && residual.robust < history_[best.iteration].robust;
-      if (iteration == 0 || is_better) best = {iteration, graph_, problem().unknowns()};
+      if (iteration == 0 || is_better) best = {iteration, graph_, problem().unknowns().clone()};
     };
     keep_if_better(best_of_all_);
     if (iteration == 0 || is_after_schedule(iteration)) keep_if_better(best_);
@@ -151,7 +151,7 @@ class Loop {
   std::vector<std::uint8_t> find_matched() {
     const std::size_t count = input_.source.size();
     Constraints constraints;
-    constraints.points = input_.rest.points;
+    constraints.points = input_.rest.points.clone();
     constraints.data = Array<float>(6 * count);
     constraints.confidence = Array<float>(count);
     std::vector<int> all(count);
@@ -301,7 +301,7 @@ class Loop {
 
   /// Makes graph and problem anew; the deformation so far is kept.
   void rebuild() {
-    Array<float> start = problem().unknowns();
+    Array<float> start = std::move(problem().unknowns());
     if (nodes_->points() != graph_->nodes) {
       auto next = make_graph();
       start =
