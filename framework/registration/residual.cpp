@@ -29,8 +29,8 @@ Residual ResidualMeter::measure(const PointSet& moved) {
   auto total = matching_kernel(*device_, "total_residual");
   correspondence_->measure(*device_, moved, *target_, per_point_);
   device_->run("residual", sum, chunks_, 1, static_cast<cl_int>(per_point_.size()),
-               moved.points.device(*device_), pinhole(target_->camera), image_size(target_->camera),
-               target_->points.device(*device_), per_point_.device(*device_), cut_, partials_);
+               moved.points.device(*device_), pinhole(target_->camera), frame_of(*target_),
+               target_->points().device(*device_), per_point_.device(*device_), cut_, partials_);
   device_->run("residual", total, 1, 1, static_cast<cl_int>(chunks_), partials_, total_);
   std::array<float, 8> record{};
   device_->read(total_, record.data(), sizeof(record));

@@ -16,19 +16,22 @@ DepthMap make_depth_map(const RgbdFrame& frame, StageTimes& times) {
   return timed(times, "surface", [&] { return DepthMap(frame); });
 }
 
-PointSet make_map(const DepthMap& given, const std::optional<DepthMap>& filtered, const Camera& camera,
-                  Device& device) {
+SurfaceMap make_map(const DepthMap& given, const std::optional<DepthMap>& filtered, const Camera& camera,
+                    Device& device) {
   return make_surface_map(device, filtered ? *filtered : given, camera);
 }
 
-Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const RgbdFrame& frame) {
-  const int width = frame.depth.width();
+/// `pixels`: offsets in the window.
+Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const PixelWindow& window,
+                     const RgbdFrame& frame) {
   Surface surface{unflatten(set.points), unflatten(set.normals), {}, {}};
   surface.pixels.reserve(pixels.size());
-  for (const int pixel : pixels) surface.pixels.emplace_back(pixel % width, pixel / width);
+  for (const int pixel : pixels)
+    surface.pixels.emplace_back(window.left + pixel % window.width, window.top + pixel / window.width);
   if (frame.color.empty()) return surface;
   surface.colors.reserve(pixels.size());
-  for (const int pixel : pixels) surface.colors.push_back(frame.color.data()[pixel]);
+  for (const Eigen::Vector2i& pixel : surface.pixels)
+    surface.colors.push_back(frame.color(pixel.x(), pixel.y()));
   return surface;
 }
 
@@ -59,11 +62,10 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   // Enqueued first: the device makes the surfaces while the host finds the alignment.
   const DepthMap depth = make_depth_map(pair.source, times);
   const auto filtered = method.filter->filter(device, depth, pair.camera);
-  const PointSet map = make_map(depth, filtered, pair.camera, device);
+  const SurfaceMap map = make_map(depth, filtered, pair.camera, device);
   const DepthMap target_depth = make_depth_map(pair.target, times);
-  SurfaceMap target(
-      pair.camera,
-      make_map(target_depth, method.filter->filter(device, target_depth, pair.camera), pair.camera, device));
+  SurfaceMap target =
+      make_map(target_depth, method.filter->filter(device, target_depth, pair.camera), pair.camera, device);
   const double noise = std::isfinite(method.trusted_noise) ? estimate_noise(target_depth) : 0;
 
   const Array<int> pixels(timed(times, "surface", [&] { return pixels_with_depth(depth); }));
@@ -72,9 +74,10 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
     return method.alignment->align({pair, device, map, pixels, target, seed, uses_features(method)});
   });
 
-  PointSet rest = pick_points(device, map, pixels, alignment.motion);
-  Surface as_given = read_surface(pick_points(device, map, pixels), pixels.host(), pair.source);
-  Surface aligned = read_surface(rest, pixels.host(), pair.source);
+  PointSet rest = pick_points(device, map.map, pixels, alignment.motion);
+  Surface as_given =
+      read_surface(pick_points(device, map.map, pixels), pixels.host(), map.window, pair.source);
+  Surface aligned = read_surface(rest, pixels.host(), map.window, pair.source);
   std::vector<Eigen::Vector3f> unfiltered;
   if (filtered) {
     as_given.points = unprojected(as_given.pixels, pair);

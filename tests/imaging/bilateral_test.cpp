@@ -18,7 +18,8 @@ const Camera kCamera{300, 290, 84.5, 40, 165, 83};
 
 DepthImage filtered(const BilateralFilter& filter, const RgbdFrame& frame, const DeviceOptions& shape = {}) {
   Device device("any", shape);
-  return to_image(*filter.filter(device, DepthMap(frame), Camera{}));
+  const Camera camera{1, 1, 0, 0, frame.depth.width(), frame.depth.height()};
+  return to_image(*filter.filter(device, DepthMap(frame), camera), camera);
 }
 
 /// Largest difference in mm; infinite where only one of both has depth.
@@ -101,7 +102,8 @@ TEST(Bilateral, IsMadeByName) {
                              {{"sigma_space", 4.5}, {"sigma_depth", 30.0}, {"radius", std::int64_t{6}}});
   const auto filter = registry.make<DepthFilter>(bilateral)->filter(device, map, kCamera);
   ASSERT_TRUE(filter.has_value());
-  EXPECT_EQ(to_image(*filter).pixels(), filtered(BilateralFilter(4.5, 30, 6), made_depth(kCamera)).pixels());
+  EXPECT_EQ(to_image(*filter, kCamera).pixels(),
+            filtered(BilateralFilter(4.5, 30, 6), made_depth(kCamera)).pixels());
 }
 
 /// A gently curved wall with white noise.

@@ -143,8 +143,8 @@ AlignmentResult align(const Alignment& alignment, const FramePair& pair, std::ui
                       bool wants_features) {
   static Device device;  // its kernels are built once
   const DepthMap depth(pair.source);
-  const PointSet source = make_surface_map(device, depth, pair.camera);
-  const SurfaceMap target(pair.camera, make_surface_map(device, DepthMap(pair.target), pair.camera));
+  const SurfaceMap source = make_surface_map(device, depth, pair.camera);
+  const SurfaceMap target = make_surface_map(device, DepthMap(pair.target), pair.camera);
   return alignment.align(
       {pair, device, source, Array<int>(pixels_with_depth(depth)), target, seed, wants_features});
 }

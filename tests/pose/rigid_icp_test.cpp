@@ -58,18 +58,17 @@ Eigen::Isometry3d motion_of(double x, double y, double z, const Eigen::Vector3d&
 class View {
  public:
   View(Device& device, const RgbdFrame& frame, const Camera& by = camera, int stride = 1)
-      : camera_(by), map_(make_surface_map(device, DepthMap(frame), by)) {
+      : map_(make_surface_map(device, DepthMap(frame), by)) {
     std::vector<int> chosen;
     const std::vector<int> all = pixels_with_depth(DepthMap(frame));
     for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(stride)) chosen.push_back(all[i]);
     pixels_ = Array<int>(std::move(chosen));
   }
-  SeenSurface surface() const { return {camera_, map_.points, map_.normals, pixels_}; }
-  PointSet& map() { return map_; }
+  SeenSurface surface() const { return {map_, pixels_}; }
+  PointSet& map() { return map_.map; }
 
  private:
-  Camera camera_;
-  PointSet map_;
+  SurfaceMap map_;
   Array<int> pixels_;
 };
 
