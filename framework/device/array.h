@@ -20,8 +20,18 @@ class Array {
   Array(const Array&) = delete;
   Array(Array&&) noexcept = default;
   Array& operator=(const Array&) = delete;
-  Array& operator=(Array&&) noexcept = default;
-  ~Array() = default;
+  Array& operator=(Array&& other) noexcept {
+    settle();
+    host_ = std::move(other.host_);
+    size_ = other.size_;
+    buffer_ = std::move(other.buffer_);
+    device_ = other.device_;
+    arriving_ = std::move(other.arriving_);
+    host_is_current_ = other.host_is_current_;
+    device_is_current_ = other.device_is_current_;
+    return *this;
+  }
+  ~Array() { settle(); }
 
   /// The same values, which share nothing with these; the copy is made where the values are, and waits for
   /// nothing.
@@ -42,16 +52,23 @@ class Array {
   bool empty() const { return size_ == 0; }
 
   const std::vector<T>& host() const {
-    if (!host_is_current_) {
-      host_.resize(size_);
-      if (device_ != nullptr) device_->read(buffer_, host_.data(), bytes());
-      host_is_current_ = true;
-    }
+    if (host_is_current_) return host_;
+    host_.resize(size_);
+    fetch();
+    if (arriving_() != nullptr) device_->wait(arriving_);
+    arriving_ = cl::Event();
+    host_is_current_ = true;
     return host_;
+  }
+  /// Begins to copy to the host what is enqueued to be written by now; host() then waits for that alone.
+  void fetch() const {
+    if (host_is_current_ || device_ == nullptr || size_ == 0 || arriving_() != nullptr) return;
+    host_.resize(size_);
+    arriving_ = device_->read_later(buffer_, host_.data(), bytes());
   }
   /// Copies the values to `to`, without keeping them on the host.
   void copy_to(T* to) const {
-    if (host_is_current_ || device_ == nullptr)
+    if (host_is_current_ || device_ == nullptr || arriving_() != nullptr)
       std::copy(host().begin(), host().end(), to);
     else
       device_->read(buffer_, to, bytes());
@@ -75,6 +92,7 @@ class Array {
   }
   /// For kernels that write; the host's copy becomes stale.
   const cl::Buffer& write_device(Device& device) {
+    settle();
     this->device(device);
     host_is_current_ = false;
     return buffer_;
@@ -82,11 +100,17 @@ class Array {
 
  private:
   std::size_t bytes() const { return size_ * sizeof(T); }
+  /// Whoever is about to give up host_ waits for what is still being copied there.
+  void settle() const {
+    if (arriving_() != nullptr) clWaitForEvents(1, &arriving_());
+    arriving_ = cl::Event();
+  }
 
   mutable std::vector<T> host_;
   std::size_t size_ = 0;
   mutable cl::Buffer buffer_;
   mutable Device* device_ = nullptr;
+  mutable cl::Event arriving_;  ///< of a copy to the host that is under way
   mutable bool host_is_current_ = true;
   mutable bool device_is_current_ = false;
 };

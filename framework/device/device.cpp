@@ -254,6 +254,26 @@ void Device::read(const cl::Buffer& buffer, void* data, std::size_t bytes) const
   }
 }
 
+cl::Event Device::read_later(const cl::Buffer& buffer, void* data, std::size_t bytes) const {
+  ++counts_.reads;
+  counts_.read_bytes += bytes;
+  cl::Event event;
+  try {
+    queue_.enqueueReadBuffer(buffer, CL_FALSE, 0, bytes, data, nullptr, &event);
+  } catch (const cl::Error& error) {
+    fail(fmt::format("reading {} bytes", bytes), error);
+  }
+  return event;
+}
+
+void Device::wait(const cl::Event& event) const {
+  try {
+    event.wait();
+  } catch (const cl::Error& error) {
+    fail("waiting for a copy to the host", error);
+  }
+}
+
 void Device::fill_zero(const cl::Buffer& buffer, std::size_t bytes) const {
   if (bytes == 0) return;
   try {

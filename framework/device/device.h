@@ -43,7 +43,7 @@ struct DeviceCounts {
   std::uint64_t allocations = 0;  ///< of memory on the device, and on the host for what is on its way there
   std::uint64_t uploads = 0;      ///< copies from the host to the device
   std::uint64_t uploaded_bytes = 0;
-  std::uint64_t reads = 0;  ///< copies from the device to the host, each of which waits
+  std::uint64_t reads = 0;  ///< copies from the device to the host
   std::uint64_t read_bytes = 0;
 };
 
@@ -115,6 +115,9 @@ class Device {
   void write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const;
   /// Waits for everything enqueued so far.
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
+  /// Only enqueues: `data` must stay where it is until wait() for what is returned.
+  cl::Event read_later(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
+  void wait(const cl::Event& event) const;
   void fill_zero(const cl::Buffer& buffer, std::size_t bytes) const;
   void finish() const;
 

@@ -207,14 +207,14 @@ class Vanishing : public Selection {
 };
 
 class VanishingSampler : public ConstraintSampler {
-  std::unique_ptr<PointSelection> select(Device&, const Surface& source, const Camera&) const override {
-    return std::make_unique<Vanishing<PointSelection>>(points_on_grid(source, 4));
+  std::unique_ptr<PointSelection> select(Device&, const SurfaceView& source) const override {
+    return std::make_unique<Vanishing<PointSelection>>(points_on_grid(source.pixels, 4));
   }
 };
 
 class VanishingGraph : public GraphBuilder {
-  std::unique_ptr<NodeSelection> select_nodes(Device&, const Surface& source, const Camera&) const override {
-    return std::make_unique<Vanishing<NodeSelection>>(points_on_grid(source, 12));
+  std::unique_ptr<NodeSelection> select_nodes(Device&, const SurfaceView& source) const override {
+    return std::make_unique<Vanishing<NodeSelection>>(points_on_grid(source.pixels, 12));
   }
 };
 

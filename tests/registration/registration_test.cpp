@@ -108,7 +108,7 @@ TEST_F(RegistrationTest, AnObserverSeesEachIteration) {
       residuals.push_back(view.measured.residual_mean);
       EXPECT_EQ(view.number, static_cast<int>(residuals.size()));
       EXPECT_EQ(view.is_last, view.number == 3);
-      const std::size_t followed = graph == "uniform" ? view.constraints.size() : scene.source.size();
+      const std::size_t followed = graph == "uniform" ? view.constraints.size() : scene.pixels.count;
       EXPECT_EQ(view.points.points.size(), 3 * followed);
       double sum = 0;
       int matched = 0;
@@ -439,8 +439,8 @@ TEST_F(RegistrationTest, AnAdaptedGraphStartsWhereTheOneBeforeEnded) {
 /// Nodes on one grid or the next, whichever was not there before.
 class RestlessNodes : public NodeSelection {
  public:
-  explicit RestlessNodes(const Surface& source)
-      : points_(points_on_grid(source, 9)), others_(points_on_grid(source, 10)) {}
+  explicit RestlessNodes(const PixelIndex& pixels)
+      : points_(points_on_grid(pixels, 9)), others_(points_on_grid(pixels, 10)) {}
   const std::vector<int>& points() const override { return points_; }
   bool adapt(Device&, const Array<float>&) override {
     std::swap(points_, others_);
@@ -452,8 +452,8 @@ class RestlessNodes : public NodeSelection {
 };
 
 class RestlessGraph : public GraphBuilder {
-  std::unique_ptr<NodeSelection> select_nodes(Device&, const Surface& source, const Camera&) const override {
-    return std::make_unique<RestlessNodes>(source);
+  std::unique_ptr<NodeSelection> select_nodes(Device&, const SurfaceView& source) const override {
+    return std::make_unique<RestlessNodes>(source.pixels);
   }
 };
 
