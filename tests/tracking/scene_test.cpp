@@ -100,11 +100,11 @@ TEST(Scene, FiltersWhatIsRegisteredAndKeepsWhatWasGiven) {
   const BilateralFilter filter(4.5, 30, 6);
   const Scene scene =
       make_scene(pair, method_with(std::make_unique<BilateralFilter>(filter)), device, 1, times);
+  const ScenePoints points = read_points(scene);
   const Surface given = make_surface(make_surface_image(pair.source, kCamera), {});
   pair.source.depth = filter.filter_reference(pair.source.depth);
   pair.target.depth = filter.filter_reference(pair.target.depth);
   const Surface smooth = make_surface(make_surface_image(pair.source, kCamera), {});
-  const ScenePoints points = read_points(scene);
   EXPECT_LT(difference(points.source.points, given.points), 1e-3);
   EXPECT_LT(difference(points.aligned, turned(smooth.points)), 1e-2);
   EXPECT_LT(difference(points.source.normals, smooth.normals), 2e-2);
