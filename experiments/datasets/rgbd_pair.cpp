@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "experiments/datasets/depth_doubts.h"
+#include "experiments/datasets/stored_pair.h"
 #include "framework/core/error.h"
 #include "framework/io/images.h"
 #include "framework/io/intrinsics.h"
@@ -36,11 +37,11 @@ void drop_farther(DepthImage& depth, double limit) {
       depth.data(), depth.data() + depth.size(), [limit](float value) { return value > limit; }, 0.0f);
 }
 
-bool has_point(const RgbdFrame& frame, std::size_t pixel) {
+bool has_point(const Frame& frame, std::size_t pixel) {
   return frame.depth.pixels()[pixel] > 0 && (frame.mask.empty() || frame.mask.pixels()[pixel] != 0);
 }
 
-void check_has_points(const RgbdFrame& frame, const RgbdPair::FrameFiles& files,
+void check_has_points(const Frame& frame, const RgbdPair::FrameFiles& files,
                       std::optional<double> max_depth) {
   for (std::size_t i = 0; i < frame.depth.size(); ++i) {
     if (has_point(frame, i)) return;
@@ -59,8 +60,8 @@ MaskImage read_object_mask(const std::string& path) {
   return mask;
 }
 
-RgbdFrame read_frame(const RgbdPair::FrameFiles& files, const RgbdPair::Settings& settings) {
-  RgbdFrame frame;
+Frame read_frame(const RgbdPair::FrameFiles& files, const RgbdPair::Settings& settings) {
+  Frame frame;
   frame.depth = read_depth(files.depth);
   scale(frame.depth, settings.depth_scale);
   if (!files.color.empty()) {
@@ -81,9 +82,9 @@ void add(std::vector<std::string> more, std::vector<std::string>& warnings) {
 }
 
 // A truth that says nothing about the source belongs to another image.
-void check_has_truth(const FramePair& pair, const std::string& path) {
-  for (std::size_t i = 0; i < pair.scene_flow.size(); ++i) {
-    if (has_point(pair.source, i) && pair.scene_flow.pixels()[i].allFinite()) return;
+void check_has_truth(const Frame& source, const PairTruth& truth, const std::string& path) {
+  for (std::size_t i = 0; i < truth.scene_flow.size(); ++i) {
+    if (has_point(source, i) && truth.scene_flow.pixels()[i].allFinite()) return;
   }
   throw DataError(fmt::format("{}: no ground truth on any point of the source", path));
 }
@@ -106,8 +107,8 @@ ParameterTable frame_table() {
 
 }  // namespace
 
-FramePair RgbdPair::load(std::uint64_t /*seed*/) const {
-  FramePair pair;
+std::unique_ptr<DataStream> RgbdPair::open(std::uint64_t /*seed*/) const {
+  StoredPair pair;
   const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
   pair.name = stem(settings_.source.depth) + " to " + stem(settings_.target.depth);
   pair.source = read_frame(settings_.source, settings_);
@@ -115,21 +116,21 @@ FramePair RgbdPair::load(std::uint64_t /*seed*/) const {
   check_size(pair.target.depth, settings_.target.depth, pair.source.depth, settings_.source.depth);
   Intrinsics intrinsics =
       read_intrinsics(settings_.intrinsics, pair.source.depth.width(), pair.source.depth.height());
-  pair.camera = intrinsics.camera;
+  pair.rig.depth = intrinsics.camera;
   pair.warnings = std::move(intrinsics.warnings);
   const double depth_scale = settings_.depth_scale;
   add(doubts_about_depth(pair.source, depth_scale, settings_.source.depth), pair.warnings);
   add(doubts_about_depth(pair.target, depth_scale, settings_.target.depth), pair.warnings);
   if (!settings_.scene_flow.empty()) {
-    pair.scene_flow = read_scene_flow(settings_.scene_flow);
-    check_size(pair.scene_flow, settings_.scene_flow, pair.source.depth, settings_.source.depth);
-    check_has_truth(pair, settings_.scene_flow);
+    pair.truth = PairTruth{read_scene_flow(settings_.scene_flow)};
+    check_size(pair.truth->scene_flow, settings_.scene_flow, pair.source.depth, settings_.source.depth);
+    check_has_truth(pair.source, *pair.truth, settings_.scene_flow);
   }
-  return pair;
+  return std::make_unique<StoredPairStream>(std::move(pair));
 }
 
 void register_rgbd_pair(Registry& registry) {
-  registry.add<DataSource>(
+  registry.add<FrameSource>(
       "rgbd_pair", "Two RGB-D images from files, seen by one camera",
       {
           group("source", frame_table()).doc("the image that is deformed"),
@@ -146,7 +147,7 @@ void register_rgbd_pair(Registry& registry) {
               .optional()
               .doc("farther depth is dropped; nothing by default"),
       },
-      [](const Parameters& parameters, const Registry&) -> std::unique_ptr<DataSource> {
+      [](const Parameters& parameters, const Registry&) -> std::unique_ptr<FrameSource> {
         RgbdPair::Settings settings;
         settings.source = frame_files(parameters.section("source"));
         settings.target = frame_files(parameters.section("target"));

@@ -1,15 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "experiments/datasets/data_source.h"
+#include "experiments/datasets/frame_source.h"
 #include "framework/core/registry.h"
 
 namespace pliant {
 
 /// Two RGB-D images from files, with what is known about them. Paths are empty where there is no file.
-class RgbdPair : public DataSource {
+class RgbdPair : public FrameSource {
  public:
   struct FrameFiles {
     std::string depth;
@@ -29,8 +30,8 @@ class RgbdPair : public DataSource {
 
   /// Gives images of one size with at least one point in the source and in the target, and with truth,
   /// where there is a file of it, for at least one point of the source. What is odd about depth or intrinsics
-  /// is among the pair's warnings. The seed plays no part.
-  FramePair load(std::uint64_t seed) const override;
+  /// is among the stream's warnings. The seed plays no part.
+  std::unique_ptr<DataStream> open(std::uint64_t seed) const override;
 
  private:
   Settings settings_;

@@ -32,7 +32,7 @@ DepthMap::DepthMap(int width, int height)
       stride(round_up(width, halo) + 2 * halo),
       depth(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows())) {}
 
-DepthMap::DepthMap(const RgbdFrame& frame) : DepthMap(frame.depth.width(), frame.depth.height()) {
+DepthMap::DepthMap(const Frame& frame) : DepthMap(frame.depth.width(), frame.depth.height()) {
   if (!frame.mask.empty() && (frame.mask.width() != width || frame.mask.height() != height))
     throw std::invalid_argument("mask and depth differ in size");
   std::vector<float> values(depth.size(), no_depth);
@@ -88,7 +88,7 @@ PointSet make_surface_map(Device& device, const DepthMap& map, const Camera& cam
   return surface;
 }
 
-SurfaceImage make_surface_image(Device& device, const RgbdFrame& frame, const Camera& camera) {
+SurfaceImage make_surface_image(Device& device, const Frame& frame, const Camera& camera) {
   const PointSet map = make_surface_map(device, DepthMap(frame), camera);
   const Image<Eigen::Vector3f> none(frame.depth.width(), frame.depth.height(), Eigen::Vector3f::Zero());
   SurfaceImage image{none, none};

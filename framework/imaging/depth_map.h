@@ -26,7 +26,7 @@ struct DepthMap {
   /// An uninitialised map of the size of an image.
   DepthMap(int width, int height);
   /// Throws std::invalid_argument when mask and depth differ in size.
-  explicit DepthMap(const RgbdFrame& frame);
+  explicit DepthMap(const Frame& frame);
 
   std::size_t offset(int u, int v) const {
     return static_cast<std::size_t>(v + halo) * static_cast<std::size_t>(stride) +
@@ -50,6 +50,6 @@ PointSet make_surface_map(Device& device, const DepthMap& map, const Camera& cam
                           int radius = default_normal_radius, float depth_step = default_depth_step);
 
 /// What make_surface_image of surface.h does, made on the device.
-SurfaceImage make_surface_image(Device& device, const RgbdFrame& frame, const Camera& camera);
+SurfaceImage make_surface_image(Device& device, const Frame& frame, const Camera& camera);
 
 }  // namespace pliant

@@ -13,7 +13,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 /// Row-major offsets of the pixels of every fourth row and column that have a point.
-Array<int> pixels_on_grid(const RgbdFrame& frame) {
+Array<int> pixels_on_grid(const Frame& frame) {
   std::vector<int> pixels;
   for (int v = 2; v < frame.depth.height(); v += 4)
     for (int u = 2; u < frame.depth.width(); u += 4)

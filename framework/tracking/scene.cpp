@@ -12,7 +12,7 @@
 namespace pliant {
 namespace {
 
-DepthMap make_depth_map(const RgbdFrame& frame, StageTimes& times) {
+DepthMap make_depth_map(const Frame& frame, StageTimes& times) {
   return timed(times, "surface", [&] { return DepthMap(frame); });
 }
 
@@ -21,7 +21,7 @@ PointSet make_map(const DepthMap& given, const std::optional<DepthMap>& filtered
   return make_surface_map(device, filtered ? *filtered : given, camera);
 }
 
-Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const RgbdFrame& frame) {
+Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const Frame& frame) {
   const int width = frame.depth.width();
   Surface surface{unflatten(set.points), unflatten(set.normals), {}, {}};
   surface.pixels.reserve(pixels.size());

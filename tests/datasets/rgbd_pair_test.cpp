@@ -38,7 +38,7 @@ class RgbdPairFiles : public testing::TestFiles {
     settings_.scene_flow = file("truth.sflow");
   }
 
-  FramePair load() const { return RgbdPair(settings_).load(0); }
+  testing::LoadedPair load() const { return testing::load(RgbdPair(settings_), 0); }
   std::string error() const {
     return data_error_of([&] { load(); });
   }
@@ -47,7 +47,7 @@ class RgbdPairFiles : public testing::TestFiles {
 };
 
 TEST_F(RgbdPairFiles, AreReadAsTheyAre) {
-  const FramePair pair = load();
+  const testing::LoadedPair pair = load();
   EXPECT_EQ(pair.name, "a to b");
   EXPECT_EQ(pair.source.depth(3, 4), 800);
   EXPECT_EQ(pair.target.depth(3, 4), 810);
@@ -56,22 +56,22 @@ TEST_F(RgbdPairFiles, AreReadAsTheyAre) {
   EXPECT_TRUE(pair.target.mask.empty());
   EXPECT_EQ(pair.camera.fx, 50);
   EXPECT_EQ(pair.camera.width, kWidth);
-  EXPECT_TRUE(pair.scene_flow(20, 10).isApprox(Eigen::Vector3f(0, 0, 10), 1e-6f));
+  EXPECT_TRUE(pair.motion(20, 10).isApprox(Eigen::Vector3f(0, 0, 10), 1e-6f));
 }
 
 TEST_F(RgbdPairFiles, DescribeTheSameInAnExperimentFile) {
   DepthImage depth(kWidth, kHeight, 810);
   depth(5, 6) = 816;
   write_depth(file("b.png"), depth);
-  const FramePair pair = testing::data_of("{type: rgbd_pair, source: {depth: " + file("a.png") +
-                                          "}, target: {depth: " + file("b.png") +
-                                          "}, intrinsics: " + file("k.txt") + ", max_depth: 815}")
-                             ->load(0);
+  const testing::LoadedPair pair = testing::load(
+      *testing::data_of("{type: rgbd_pair, source: {depth: " + file("a.png") + "}, target: {depth: " +
+                        file("b.png") + "}, intrinsics: " + file("k.txt") + ", max_depth: 815}"),
+      0);
   EXPECT_EQ(pair.source.depth(3, 4), 800);
   EXPECT_EQ(pair.target.depth(3, 4), 810);
   EXPECT_EQ(pair.target.depth(5, 6), 0) << "farther than max_depth";
   EXPECT_TRUE(pair.source.color.empty());
-  EXPECT_TRUE(pair.scene_flow.empty());
+  EXPECT_FALSE(pair.truth);
 }
 
 DepthImage ramp(float from, float step) {
@@ -89,7 +89,7 @@ TEST_F(RgbdPairFiles, DepthMayBeInAnotherUnit) {
   write_depth(file("a.png"), ramp(4000, 1));
   write_depth(file("b.png"), ramp(4000, 1));
   settings_.depth_scale = 0.2;
-  const FramePair pair = load();
+  const testing::LoadedPair pair = load();
   EXPECT_EQ(pair.source.depth(0, 0), 800);
   EXPECT_FLOAT_EQ(pair.target.depth(1, 0), 800.2F);
   EXPECT_THAT(pair.warnings, IsEmpty());
