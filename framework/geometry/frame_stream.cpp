@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/geometry/color_at_depth.h"
 
 namespace pliant {
 
@@ -44,6 +45,7 @@ FramePair read_pair(FrameStream& stream) {
   CheckedStream frames(stream);
   FramePair pair{stream.name(), stream.rig().depth, frames.require("the source"),
                  frames.require("the target")};
+  for (Frame* frame : {&pair.source, &pair.target}) frame->color = color_at_depth(*frame, stream.rig());
   pair.warnings = stream.warnings();
   return pair;
 }

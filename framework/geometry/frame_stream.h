@@ -48,7 +48,8 @@ class CheckedStream {
   double time_ = 0;
 };
 
-/// The first two frames of a stream. Throws DataError as CheckedStream does and when the stream ends early.
+/// The first two frames of a stream, their colour carried to the depth (color_at_depth). Throws DataError as
+/// CheckedStream does and when the stream ends early.
 FramePair read_pair(FrameStream& stream);
 
 }  // namespace pliant
