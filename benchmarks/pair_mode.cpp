@@ -107,6 +107,7 @@ class Subject {
         data_(data.name),
         method_name_(method),
         pair_(workbench.pair(experiment)),
+        truth_(workbench.truth(experiment)),
         method_(make_method(experiment, workbench.registry())),
         device_(workbench.device(experiment)),
         seed_(static_cast<std::uint64_t>(experiment.integer("seed"))) {
@@ -117,7 +118,7 @@ class Subject {
   void warm_up() {
     const Stopwatch watch;
     const RegistrationResult result = register_pair(pair_, method_, device_, seed_);
-    const Evaluation evaluation(pair_, result.source, make_surface_image(pair_.target, pair_.camera));
+    const Evaluation evaluation(pair_, truth_, result.source, make_surface_image(pair_.target, pair_.camera));
     initial_ = evaluation.measure(result.source.points);
     metrics_ = evaluation.measure(result.points);
     counts_ = result.counts;
@@ -169,6 +170,7 @@ class Subject {
 
   std::string data_, method_name_;
   const FramePair& pair_;
+  const std::optional<PairTruth>& truth_;
   Method method_;
   Device& device_;
   std::uint64_t seed_;

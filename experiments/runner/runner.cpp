@@ -127,7 +127,7 @@ RunRecord make_run(const ExperimentPlan::Run& run, const fs::path& folder, Workb
   device.measure_stages(false);
   progress.tell("measuring distances");
   const SurfaceImage target = make_surface_image(device, pair.target, pair.camera);
-  const Evaluation evaluation(pair, record.result.source, target);
+  const Evaluation evaluation(pair, workbench.truth(run.values), record.result.source, target);
   const NearestDistances nearest = measure(evaluation, record, progress);
   write_reports(run, ReportInput{pair, target, nearest, record}, folder, workbench.registry(), progress);
   return record;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t group = 64;
 
 /// Throws std::invalid_argument when mask and depth differ in size.
-const RgbdFrame& checked(const RgbdFrame& frame) {
+const Frame& checked(const Frame& frame) {
   const bool fits = frame.mask.empty() || (frame.mask.width() == frame.depth.width() &&
                                            frame.mask.height() == frame.depth.height());
   if (!fits) throw std::invalid_argument("mask and depth differ in size");
@@ -38,7 +38,7 @@ cl::Kernel depth_kernel(Device& device, const std::string& name) {
 namespace {
 
 /// The smallest window that holds all pixels with depth; empty when there is none.
-PixelWindow window_of_depth(const RgbdFrame& frame) {
+PixelWindow window_of_depth(const Frame& frame) {
   const int width = frame.depth.width();
   const int height = frame.depth.height();
   int left = width, right = 0, top = height, bottom = 0;
@@ -69,7 +69,7 @@ DepthMap::DepthMap(const PixelWindow& window)
       stride(round_up(window.width, halo) + 2 * halo),
       depth(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows())) {}
 
-DepthMap::DepthMap(const RgbdFrame& frame) : DepthMap(window_of_depth(checked(frame))) {
+DepthMap::DepthMap(const Frame& frame) : DepthMap(window_of_depth(checked(frame))) {
   std::vector<float> values(depth.size(), no_depth);
   for (int row = 0; row < window.height; ++row) {
     float* to = values.data() + offset(0, row);
@@ -125,7 +125,7 @@ SurfaceMap make_surface_map(Device& device, const DepthMap& map, const Camera& c
   return surface;
 }
 
-SurfaceImage make_surface_image(Device& device, const RgbdFrame& frame, const Camera& camera) {
+SurfaceImage make_surface_image(Device& device, const Frame& frame, const Camera& camera) {
   const SurfaceMap map = make_surface_map(device, DepthMap(frame), camera);
   const Image<Eigen::Vector3f> none(frame.depth.width(), frame.depth.height(), Eigen::Vector3f::Zero());
   SurfaceImage image{none, none};

@@ -27,7 +27,7 @@ struct DepthMap {
   explicit DepthMap(const PixelWindow& window);
   /// In the smallest window that holds all depth. Throws std::invalid_argument when mask and depth differ in
   /// size.
-  explicit DepthMap(const RgbdFrame& frame);
+  explicit DepthMap(const Frame& frame);
 
   /// Of a pixel by its place in the window.
   std::size_t offset(int column, int row) const {
@@ -52,6 +52,6 @@ SurfaceMap make_surface_map(Device& device, const DepthMap& map, const Camera& c
                             int radius = default_normal_radius, float depth_step = default_depth_step);
 
 /// What make_surface_image of surface.h does, made on the device.
-SurfaceImage make_surface_image(Device& device, const RgbdFrame& frame, const Camera& camera);
+SurfaceImage make_surface_image(Device& device, const Frame& frame, const Camera& camera);
 
 }  // namespace pliant

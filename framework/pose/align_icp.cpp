@@ -14,7 +14,7 @@ constexpr double degree = std::numbers::pi / 180;
 
 /// The pixels of every fourth row and column that have a point, as offsets in a window that holds all of
 /// them.
-Array<int> pixels_on_grid(const RgbdFrame& frame, const PixelWindow& window) {
+Array<int> pixels_on_grid(const Frame& frame, const PixelWindow& window) {
   std::vector<int> pixels;
   for (int v = 2; v < frame.depth.height(); v += 4)
     for (int u = 2; u < frame.depth.width(); u += 4)

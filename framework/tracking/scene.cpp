@@ -12,7 +12,7 @@
 namespace pliant {
 namespace {
 
-DepthMap make_depth_map(const RgbdFrame& frame, StageTimes& times) {
+DepthMap make_depth_map(const Frame& frame, StageTimes& times) {
   return timed(times, "surface", [&] { return DepthMap(frame); });
 }
 

@@ -1,6 +1,6 @@
-# Does what docs/adding-a-component.md tells its reader to do, to a copy of the room `energies`, and runs the
-# tests there. Variables: SOURCE (the project), WORK (a folder to work in), ROOMS (the exported libraries) and
-# CONFIGURE (arguments for configuring, separated by |).
+# Does what docs/adding-a-component.md tells its reader to do, to copies of the rooms `energies` and
+# `experiments/datasets`, and runs the tests there. Variables: SOURCE (the project), WORK (a folder to work in),
+# ROOMS (the exported libraries) and CONFIGURE (arguments for configuring, separated by |).
 cmake_minimum_required(VERSION 3.25)
 file(READ ${SOURCE}/docs/adding-a-component.md DOCUMENT)
 
@@ -23,33 +23,56 @@ function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
+# The code block after TITLE is the file PATH of the tree. The example of the tests must be the same.
+function(write_example PATH EXAMPLE_FILE)
+  code_block("`${PATH}`" cpp TEXT)
+  file(WRITE ${TREE}/${PATH} "${TEXT}")
+  file(READ ${SOURCE}/tests/adding_a_component/${EXAMPLE_FILE} EXAMPLE)
+  if(NOT TEXT STREQUAL EXAMPLE)
+    message(FATAL_ERROR "the document and tests/adding_a_component/${EXAMPLE_FILE} differ")
+  endif()
+endfunction()
+
+# Puts the code block after TITLE behind the text ANCHOR of the file PATH of the tree.
+function(add_to PATH ANCHOR TITLE LANGUAGE)
+  code_block("${TITLE}" ${LANGUAGE} TEXT)
+  string(STRIP "${TEXT}" TEXT)
+  file(READ ${TREE}/${PATH} BEFORE)
+  string(REPLACE "${ANCHOR}" "${ANCHOR}${SEPARATOR}${TEXT}" AFTER "${BEFORE}")
+  if(AFTER STREQUAL BEFORE)
+    message(FATAL_ERROR "${PATH} has no '${ANCHOR}'")
+  endif()
+  file(WRITE ${TREE}/${PATH} "${AFTER}")
+endfunction()
+
 set(TREE ${WORK}/tree)
 file(REMOVE_RECURSE ${TREE})
 file(COPY ${SOURCE}/energies ${SOURCE}/cmake DESTINATION ${TREE})
+file(COPY ${SOURCE}/experiments/datasets DESTINATION ${TREE}/experiments)
 file(COPY ${SOURCE}/tests/adding_a_component/project/CMakeLists.txt DESTINATION ${TREE})
 
-foreach(FILE equation.h energy.cpp)
-  code_block("`energies/stillness/${FILE}`" cpp TEXT)
-  file(WRITE ${TREE}/energies/stillness/${FILE} "${TEXT}")
-  file(READ ${SOURCE}/tests/adding_a_component/stillness/${FILE} EXAMPLE)
-  if(NOT TEXT STREQUAL EXAMPLE)
-    message(FATAL_ERROR "the document and tests/adding_a_component/stillness/${FILE} differ")
-  endif()
-endforeach()
-
-code_block("In `energies/energies.h`, in the list `PLIANT_ENERGIES`" cpp NAME)
-string(STRIP "${NAME}" NAME)
-file(READ ${TREE}/energies/energies.h LIST_FILE)
-string(REPLACE "#define PLIANT_ENERGIES(ENERGY)" "#define PLIANT_ENERGIES(ENERGY) ${NAME}" CHANGED "${LIST_FILE}")
-if(CHANGED STREQUAL LIST_FILE)
-  message(FATAL_ERROR "energies.h has no list PLIANT_ENERGIES")
-endif()
-file(WRITE ${TREE}/energies/energies.h "${CHANGED}")
-
+write_example(energies/stillness/equation.h stillness/equation.h)
+write_example(energies/stillness/energy.cpp stillness/energy.cpp)
+set(SEPARATOR " ")
+add_to(energies/energies.h "#define PLIANT_ENERGIES(ENERGY)"
+  "In `energies/energies.h`, in the list `PLIANT_ENERGIES`" cpp)
 code_block("In an experiment file" yaml EXPERIMENT)
 file(WRITE ${WORK}/experiment.yaml "${EXPERIMENT}")
+
+set(ROOM experiments/datasets)
+write_example(${ROOM}/approaching_wall.h approaching_wall/approaching_wall.h)
+write_example(${ROOM}/approaching_wall.cpp approaching_wall/approaching_wall.cpp)
+add_to(${ROOM}/CMakeLists.txt "SOURCES" "In `${ROOM}/CMakeLists.txt`, behind `SOURCES`" cmake)
+set(SEPARATOR "\n")
+add_to(${ROOM}/datasets.cpp "#include \"experiments/datasets/datasets.h\""
+  "In `${ROOM}/datasets.cpp`, with the other includes" cpp)
+add_to(${ROOM}/datasets.cpp "void register_datasets(Registry& registry) {"
+  "In `${ROOM}/datasets.cpp`, in `register_datasets`" cpp)
+code_block("An experiment file names it" yaml EXPERIMENT)
+file(WRITE ${WORK}/frames.yaml "${EXPERIMENT}")
 
 string(REPLACE "|" ";" CONFIGURE "${CONFIGURE}")
 run(${CMAKE_COMMAND} -S ${TREE} -B ${WORK}/build ${CONFIGURE} -DPLIANT_ROOMS=${ROOMS} -DPLIANT_SOURCE=${SOURCE})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 run(${CMAKE_COMMAND} -E env PLIANT_EXAMPLE=${WORK}/experiment.yaml ${WORK}/build/follow)
+run(${CMAKE_COMMAND} -E env PLIANT_FRAMES_EXAMPLE=${WORK}/frames.yaml ${WORK}/build/follow_frames)

@@ -114,10 +114,10 @@ double brightness(double x, double y, double cell, std::uint64_t pattern) {
   return (1 - s) * (1 - t) * at(0, 0) + s * (1 - t) * at(1, 0) + (1 - s) * t * at(0, 1) + s * t * at(1, 1);
 }
 
-RgbdFrame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
+Frame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
   const Eigen::Vector3d origin = motion * Eigen::Vector3d(0, 0, 800);
   const Eigen::Vector3d normal = motion.linear() * Eigen::Vector3d::UnitZ();
-  RgbdFrame frame{DepthImage(320, 240), ColorImage(320, 240), {}};
+  Frame frame{DepthImage(320, 240), ColorImage(320, 240), {}};
   for (int v = 0; v < 240; ++v) {
     for (int u = 0; u < 320; ++u) {
       const Eigen::Vector3d ray = camera.unproject(u, v, 1);
@@ -134,8 +134,8 @@ RgbdFrame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
 }
 
 FramePair moved_plane() {
-  static const FramePair pair{
-      "plane", camera, render_plane(Eigen::Isometry3d::Identity(), 11), render_plane(a_motion(), 11), {}};
+  static const FramePair pair{"plane", camera, render_plane(Eigen::Isometry3d::Identity(), 11),
+                              render_plane(a_motion(), 11)};
   return pair;
 }
 

@@ -34,6 +34,14 @@ class HardInputTest : public ExperimentFiles {
   }
   FramePair sheet() { return workbench_.pair(plan("").runs[0].values); }
 
+  /// Mean end-point error over that of no motion, of a sheet that lacks some of its depth.
+  double share_of_error_left(const FramePair& pair, const RegistrationResult& result) {
+    const Evaluation evaluation(pair, workbench_.truth(plan("").runs[0].values), result.source,
+                                make_surface_image(pair.target, pair.camera));
+    return evaluation.measure(result.points).truth.value().epe_mean /
+           evaluation.measure(result.source.points).truth.value().epe_mean;
+  }
+
   RegistrationResult register_with(const FramePair& pair, const Method& method) {
     auto result = register_pair(pair, method, device_, 1);
     expect_finite(result);
@@ -443,13 +451,6 @@ void keep(DepthImage& depth, const std::function<bool(int, int)>& is_kept) {
   for (int v = 0; v < depth.height(); ++v)
     for (int u = 0; u < depth.width(); ++u)
       if (!is_kept(u, v)) depth(u, v) = 0;
-}
-
-/// Mean end-point error over that of no motion.
-double share_of_error_left(const FramePair& pair, const RegistrationResult& result) {
-  const Evaluation evaluation(pair, result.source, make_surface_image(pair.target, pair.camera));
-  return evaluation.measure(result.points).truth.value().epe_mean /
-         evaluation.measure(result.source.points).truth.value().epe_mean;
 }
 
 TEST_F(HardInputTest, SparseAndStripedSourcesAreRegistered) {

@@ -20,7 +20,7 @@ SampleRun::SampleRun(float left) {
   pair.source.depth = DepthImage(40, 30, 800);
   for (int v = 0; v < 30; ++v) pair.source.depth(10, v) = 0;
   pair.target.depth = DepthImage(40, 30, target_depth);
-  pair.scene_flow = Image<Eigen::Vector3f>(40, 30, Eigen::Vector3f(0, 0, target_depth - 800));
+  const PairTruth truth{Image<Eigen::Vector3f>(40, 30, Eigen::Vector3f(0, 0, target_depth - 800))};
   target = make_surface_image(pair.target, pair.camera);
   RegistrationResult& result = run.result;
   result.source = make_surface(make_surface_image(pair.source, pair.camera), {});
@@ -36,7 +36,7 @@ SampleRun::SampleRun(float left) {
   result.termination = "residual_settled";
   result.time_ms = {{"solve", 90.25}, {"match", 12.5}};
   result.total_ms = 110.75;
-  const Evaluation evaluation(pair, result.source, target);
+  const Evaluation evaluation(pair, truth, result.source, target);
   nearest = {evaluation.nearest(result.source.points), evaluation.nearest(result.aligned_points),
              evaluation.nearest(result.points)};
   run.name = "sheet/<fast>";

@@ -39,7 +39,7 @@ Method method_with(std::unique_ptr<DepthFilter> filter) {
 }
 
 FramePair made_pair() {
-  FramePair pair{"made", kCamera, made_depth(kCamera), made_depth(kCamera, 0), {}};
+  FramePair pair{"made", kCamera, made_depth(kCamera), made_depth(kCamera, 0)};
   pair.source.color = ColorImage(kCamera.width, kCamera.height);
   for (int u = 0; u < kCamera.width; ++u) pair.source.color(u, 40) = {static_cast<std::uint8_t>(u), 1, 2};
   return pair;
