@@ -20,6 +20,8 @@ if(PLIANT_WARNINGS_AS_ERRORS)
   target_compile_options(pliant_options INTERFACE -Werror)
 endif()
 if(PLIANT_COVERAGE)
-  target_compile_options(pliant_options INTERFACE --coverage -fprofile-update=atomic)
+  # Counters in the functions of system headers, of tests and of experiments, which nobody reads, cost a sixth of a build.
+  target_compile_options(pliant_options INTERFACE --coverage -fprofile-update=atomic
+    "-fprofile-filter-files=^${PROJECT_SOURCE_DIR}/(framework|energies|graphs|samplers|solvers)/")
   target_link_options(pliant_options INTERFACE --coverage)
 endif()
