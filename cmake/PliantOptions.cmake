@@ -11,7 +11,8 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 
 add_library(pliant_options INTERFACE)
-target_compile_options(pliant_options INTERFACE -Wall -Wextra)
+target_compile_options(pliant_options INTERFACE -Wall -Wextra
+  "$<$<CXX_COMPILER_ID:Clang>:-Wreserved-identifier;-Wreserved-macro-identifier>")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC bug 105651: `"text" + std::string` warns of copies that cannot happen.
   target_compile_options(pliant_options INTERFACE -Wno-restrict)
