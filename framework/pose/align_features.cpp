@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <flann/algorithms/dist.h>
+#include <flann/algorithms/kdtree_single_index.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <flann/flann.hpp>
 #include <future>
 #include <memory>
 #include <opencv2/features2d.hpp>
@@ -245,7 +246,7 @@ flann::Matrix<float> rows_of(cv::Mat& descriptors) {
 PointMatches match(Features& source, Features& target, double ratio) {
   // The single tree searches exactly; FLANN's randomised trees are shuffled by std::random_device and
   // give other matches in every run.
-  flann::Index<flann::L2<float>> index(rows_of(target.descriptors), flann::KDTreeSingleIndexParams());
+  flann::KDTreeSingleIndex<flann::L2<float>> index(rows_of(target.descriptors));
   index.buildIndex();
   std::vector<std::vector<int>> indices;
   std::vector<std::vector<float>> squared;

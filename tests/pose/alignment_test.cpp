@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <unordered_map>
 
 #include "framework/core/error.h"
 #include "framework/imaging/depth_map.h"
@@ -96,9 +97,13 @@ TEST(RigidRansac, SameSeedSameBits) {
 const Camera camera{300, 300, 159.5, 119.5, 320, 240};
 
 double lattice_value(std::int64_t x, std::int64_t y, std::uint64_t pattern) {
-  std::mt19937_64 random(pattern + 1000003 * static_cast<std::uint64_t>(x + 5000) +
-                         static_cast<std::uint64_t>(y + 5000));
-  return static_cast<double>(random() % 1000) / 1000;
+  const std::uint64_t seed =
+      pattern + 1000003 * static_cast<std::uint64_t>(x + 5000) + static_cast<std::uint64_t>(y + 5000);
+  // Every pixel asks for four of few: setting up a generator each time took most of the test.
+  static std::unordered_map<std::uint64_t, double> values;
+  const auto [value, is_new] = values.try_emplace(seed);
+  if (is_new) value->second = static_cast<double>(std::mt19937_64(seed)() % 1000) / 1000;
+  return value->second;
 }
 
 /// Smooth random brightness over the plane, in 0 .. 1; `x`, `y` and `cell` in mm.
