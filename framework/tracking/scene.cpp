@@ -67,7 +67,8 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   check(pair);
   // Enqueued first: the device makes the surfaces while the host finds the alignment.
   const DepthMap depth = make_depth_map(pair.source, times);
-  const auto filtered = method.filter->filter(device, depth, pair.camera);
+  const DepthFilter& source_filter = method.source_filter ? *method.source_filter : *method.filter;
+  const auto filtered = source_filter.filter(device, depth, pair.camera);
   const SurfaceMap map = make_map(depth, filtered, pair.camera, device);
   const DepthMap target_depth = make_depth_map(pair.target, times);
   SurfaceMap target =
