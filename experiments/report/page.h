@@ -12,9 +12,8 @@ namespace pliant {
 /// RFC 4648 with padding.
 std::string base64(const std::vector<std::uint8_t>& bytes);
 
-/// One run as an HTML page that needs no other file: metrics, counts, energy, times and pictures.
-std::string make_page(const ReportInput& input);
-std::string make_page(const EditInput& input);
+/// One run as an HTML page that needs no other file: tables, plots and pictures.
+std::string make_page(const RunArtefacts& run);
 
 /// Adds the report `page`: index.html.
 void register_page_report(Registry& registry);
