@@ -7,6 +7,7 @@
 
 #include "experiments/report/html.h"
 #include "experiments/report/plot.h"
+#include "experiments/report/reports.h"
 #include "framework/io/file.h"
 
 namespace pliant {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "experiments/report/report.h"
-#include "framework/core/registry.h"
 
 namespace pliant {
 
@@ -14,8 +13,5 @@ std::string base64(const std::vector<std::uint8_t>& bytes);
 
 /// One run as an HTML page that needs no other file: tables, plots and pictures.
 std::string make_page(const RunArtefacts& run);
-
-/// Adds the report `page`: index.html.
-void register_page_report(Registry& registry);
 
 }  // namespace pliant

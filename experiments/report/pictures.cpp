@@ -1,8 +1,7 @@
-#include "experiments/report/pictures.h"
-
 #include <memory>
 
 #include "experiments/report/report.h"
+#include "experiments/report/reports.h"
 #include "framework/io/file.h"
 
 namespace pliant {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "experiments/report/report.h"
+#include "experiments/report/reports.h"
 #include "framework/io/ply.h"
 
 namespace pliant {

@@ -1,5 +1,3 @@
-#include "experiments/report/pictures.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
