@@ -143,7 +143,7 @@ ResultFolder::ResultFolder(const fs::path& folder, const Files& files, const Fil
   const std::scoped_lock lock(guard());
   open();
   is_kept_ = true;  // until it is decided what becomes of it
-  if (leftovers == Leftovers::go) keep_only({});
+  if (leftovers == Leftovers::go) clear_but({});
   open_folders().insert(this);
 }
 
@@ -265,6 +265,11 @@ void ResultFolder::replace_by(Files fresh) const {
 }
 
 void ResultFolder::keep_only(const Files& names) {
+  const std::scoped_lock lock(guard());
+  clear_but(names);
+}
+
+void ResultFolder::clear_but(const Files& names) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(unfinished_)) {
     const fs::path name = entry.path().filename();

@@ -49,6 +49,7 @@ class ResultFolder {
   void check_free(const Files& files, const Files& inputs) const;
   void open();
   void lock();
+  void clear_but(const Files& names);
   void abandon();
   void replace_by(Files fresh) const;
 

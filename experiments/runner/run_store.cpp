@@ -15,6 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
+constexpr const char* file_name = "run.json";
+
 /// The experiment of a run without what it shares with the others and without what it is called.
 Parameters what_counts(const Parameters& experiment) {
   std::vector<Parameters::Value> values = experiment.values();
@@ -36,8 +38,41 @@ Table table_of(const ordered_json& json) {
   return table;
 }
 
-RunSummary summary_of(const std::string& name, const ordered_json& json) {
-  return {name, json.at("run"), table_of(json.at("summary")), json.at("notes"), json.at("failure")};
+struct Stored {
+  RunSummary run;
+  std::vector<std::string> files;
+};
+
+/// The run whose folder this is; nothing where it is not whole or came of anything else.
+std::optional<Stored> read_run(const fs::path& folder, const std::string& key) {
+  try {
+    const ordered_json json = read_json((folder / file_name).string());
+    if (json.at("key") != key) return {};
+    const std::vector<std::string> files = json.at("files");
+    const bool is_whole = std::all_of(files.begin(), files.end(), [&](const fs::path& file) {
+      std::error_code ignored;
+      return file.filename() == file && fs::is_regular_file(folder / file, ignored);
+    });
+    if (!is_whole) return {};
+    return Stored{{folder.filename().string(), json.at("run"), table_of(json.at("summary")), json.at("notes"),
+                   json.at("failure")},
+                  files};
+  } catch (const DataError&) {                // not there, or torn
+  } catch (const ordered_json::exception&) {  // of another kind
+  }
+  return {};
+}
+
+void copy_run(const fs::path& from, const fs::path& to, std::vector<std::string> files) {
+  std::error_code error;
+  fs::remove_all(to, error);
+  fs::create_directories(to, error);
+  files.emplace_back(file_name);
+  for (const std::string& file : files) {
+    if (!error) fs::copy_file(from / file, to / file, error);
+    if (error)
+      throw DataError(fmt::format("{}: cannot be written: {}", (to / file).string(), error.message()));
+  }
 }
 
 }  // namespace
@@ -51,53 +86,27 @@ std::string run_key(const Task& task, const ExperimentRun& run, const DeviceInfo
 void RunStore::write(const RunSummary& run, const std::string& key, const Files& files) const {
   ordered_json names = ordered_json::array();
   for (const auto& written : files) names.push_back(written.filename().string());
-  write_json(file(run.name).string(), {{"schema", 1},
-                                       {"key", key},
-                                       {"version", version()},
-                                       {"commit", commit()},
-                                       {"run", run.json},
-                                       {"summary", table_json(run.summary)},
-                                       {"notes", run.notes},
-                                       {"failure", run.failure},
-                                       {"files", names}});
+  write_json((folder_ / run.name / file_name).string(), {{"schema", 1},
+                                                         {"key", key},
+                                                         {"version", version()},
+                                                         {"commit", commit()},
+                                                         {"run", run.json},
+                                                         {"summary", table_json(run.summary)},
+                                                         {"notes", run.notes},
+                                                         {"failure", run.failure},
+                                                         {"files", names}});
 }
 
 std::optional<RunSummary> RunStore::find(const std::string& name, const std::string& key) const {
-  std::error_code ignored;
-  if (!fs::is_regular_file(file(name), ignored)) return {};
-  try {
-    const ordered_json json = read_json(file(name).string());
-    if (json.at("key") != key) return {};
-    for (const std::string written : json.at("files")) {
-      const bool leads_out = fs::path(written).filename() != written;
-      if (leads_out || !fs::is_regular_file(folder_ / name / written, ignored)) return {};
-    }
-    return summary_of(name, json);
-  } catch (const DataError&) {
-    return {};
-  } catch (const ordered_json::exception&) {
-    return {};
-  }
+  auto stored = read_run(folder_ / name, key);
+  if (!stored && !last_.empty() && (stored = read_run(last_ / name, key)))
+    copy_run(last_ / name, folder_ / name, stored->files);
+  return stored ? std::optional(stored->run) : std::nullopt;
 }
 
 void RunStore::remove(const std::string& name) const {
   std::error_code ignored;
   fs::remove_all(folder_ / name, ignored);
-}
-
-void RunStore::copy_to(const RunStore& other, const std::string& name) const {
-  const ordered_json json = read_json(file(name).string());
-  const fs::path from = folder_ / name;
-  const fs::path to = other.folder_ / name;
-  std::error_code error;
-  fs::create_directories(to, error);
-  ordered_json files = json.at("files");
-  files.push_back("run.json");
-  for (const std::string copied : files) {
-    if (!error) fs::copy_file(from / copied, to / copied, fs::copy_options::overwrite_existing, error);
-    if (error)
-      throw DataError(fmt::format("{}: cannot be written: {}", (to / copied).string(), error.message()));
-  }
 }
 
 }  // namespace pliant

@@ -45,10 +45,9 @@ class Runs {
 
   ExperimentResult make(const fs::path& folder) {
     ResultFolder result(folder, result_files(task_, plan_, workbench_.registry()), plan_.experiment.files,
-                        ResultFolder::Leftovers::stay);
-    RunStore finished(result.unfinished());
-    if (plan_.has_variants()) take_finished(RunStore(folder), is_incomplete(folder), finished);
-    result.keep_only(kept_);
+                        plan_.has_variants() ? ResultFolder::Leftovers::stay : ResultFolder::Leftovers::go);
+    const RunStore finished(result.unfinished(), is_incomplete(folder) ? folder : "");
+    if (plan_.has_variants()) result.keep_only(take(finished));
     for (const auto& run : plan_.runs) {
       make_or_take(run, result.unfinished(), finished);
       if (plan_.has_variants() && !made_.runs.empty()) result.keep();
@@ -73,26 +72,19 @@ class Runs {
     }
   }
 
-  /// Finds what is finished already: of a call that was ended, or, where that is `incomplete`, of the last
-  /// result.
-  void take_finished(const RunStore& last, bool is_incomplete, const RunStore& finished) {
+  /// Finds what is finished already; gives its folders.
+  ResultFolder::Files take(const RunStore& finished) {
+    ResultFolder::Files folders;
     for (const auto& run : plan_.runs) {
       try {
-        take(run.name, key(run), is_incomplete ? &last : nullptr, finished);
+        const auto found = finished.find(run.name, key(run));
+        if (!found) continue;
+        taken_.emplace(run.name, *found);
+        folders.emplace_back(run.name);
       } catch (const Error&) {  // comes again when the run is made
       }
     }
-  }
-
-  void take(const std::string& run, const std::string& key, const RunStore* last, const RunStore& finished) {
-    auto found = finished.find(run, key);
-    if (!found && last != nullptr && (found = last->find(run, key))) {
-      finished.remove(run);
-      last->copy_to(finished, run);
-    }
-    if (!found) return;
-    kept_.push_back(run);
-    taken_.emplace(run, std::move(*found));
+    return folders;
   }
 
   void make_or_take(const ExperimentRun& run, const fs::path& folder, const RunStore& finished) {
@@ -151,7 +143,6 @@ class Runs {
   const ProgressSink& progress_;
   int repeats_;
   std::map<std::string, RunSummary> taken_;
-  ResultFolder::Files kept_;
   ExperimentResult made_;
 };
 

@@ -67,16 +67,17 @@ TEST_F(RunStoreTest, GivesNothingElse) {
   EXPECT_FALSE(store_.find("a", "key"));
 }
 
-TEST_F(RunStoreTest, CopiesARunWithItsFilesAndNoOthers) {
-  const RunStore other(file("other"));
+TEST_F(RunStoreTest, TakesARunOfAnEarlierResultWithItsFilesAndNoOthers) {
   store_.write(summary_, "key", {write("store/a/index.html", "page")});
   write("store/a/notes", "mine");
-  store_.copy_to(other, "a");
+  const RunStore other(file("other"), file("store"));
+  EXPECT_FALSE(other.find("a", "other key"));
   EXPECT_TRUE(other.find("a", "key"));
+  EXPECT_TRUE(RunStore(file("other")).find("a", "key"));
   EXPECT_EQ(text_of("other/a/index.html"), "page");
   EXPECT_FALSE(fs::exists(file("other/a/notes")));
   write("taken", "a file");
-  EXPECT_THAT(data_error_of([&] { store_.copy_to(RunStore(file("taken")), "a"); }),
+  EXPECT_THAT(data_error_of([&] { RunStore(file("taken"), file("store")).find("a", "key"); }),
               HasSubstr("taken/a/index.html: cannot be written"));
 }
 
