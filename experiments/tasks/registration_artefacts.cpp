@@ -149,7 +149,7 @@ std::vector<Picture> pictures(const RegistrationResult& result, const Camera& ca
       std::count_if(behind.pixels().begin(), behind.pixels().end(), [](float value) { return value > 0; });
   std::vector<Picture> pictures{
       draw_source(source, camera, depth),
-      heat_map("depth_target", "SurfaceMap depth", behind, depth, fmt::format("{} points", target_points)),
+      heat_map("depth_target", "Target depth", behind, depth, fmt::format("{} points", target_points)),
       draw_error("error_initial", "Error before registration", source, camera, error, measured.initial)};
   if (result.aligned_points != source.points)
     pictures.push_back(draw_error("error_aligned", "Error after the initial alignment", source, camera, error,
