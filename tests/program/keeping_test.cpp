@@ -93,11 +93,13 @@ TEST_F(OwnNamesTest, TheExperimentBesideAResultIsNotReplacedByItsOwnRun) {
 
 TEST_F(KeepingTest, RunsMayNotBeCalledAsFilesOfAResultAre) {
   write("names.yaml",
-        "extends: methods/ed.yaml\ndata: {type: synthetic_sheet}\nruns: {result.json: , index.html: }\n");
+        "extends: methods/ed.yaml\ndata: {type: synthetic_sheet}\nruns: {result.json: , index.html: , "
+        "unfinished: }\n");
   const ProgramRun run = call("check names.yaml");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.errors(), ElementsAre(MatchesRegex("names.yaml:3:8: .*'result.json'.*"),
-                                        MatchesRegex("names.yaml:3:23: .*'index.html'.*")));
+                                        MatchesRegex("names.yaml:3:23: .*'index.html'.*"),
+                                        MatchesRegex("names.yaml:3:37: .*'unfinished'.*")));
 }
 
 TEST_F(KeepingTest, AReproductionThatFailsLeavesTheOldOne) {
@@ -181,7 +183,7 @@ TEST_F(KeepingTest, AnInterruptionLeavesTheOldResultAndNothingElse) {
 TEST_F(KeepingTest, AnInterruptedSweepGoesOnWhereItWasInterrupted) {
   write("sweep.yaml",
         "extends: small.yaml\n"
-        "runs: {first: , second: {data: {image_width: 1280, image_height: 960, focal_length: 1050}}}\n");
+        "runs: {first: , second: {data: {image_width: 640, image_height: 480, focal_length: 525}}}\n");
   for (const char* signal : {"INT", "KILL"}) {
     fs::remove_all(file("out"));
     const std::string script = std::string("$PLIANT run sweep.yaml --out out & pid=$!\n") +
