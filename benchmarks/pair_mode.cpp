@@ -93,6 +93,12 @@ struct Repetition {
   StageTimes stages;
 };
 
+DeviceCounts difference(const DeviceCounts& after, const DeviceCounts& before) {
+  return {after.allocations - before.allocations, after.uploads - before.uploads,
+          after.uploaded_bytes - before.uploaded_bytes, after.reads - before.reads,
+          after.read_bytes - before.read_bytes};
+}
+
 /// One data set with one method.
 class Subject {
  public:
@@ -101,6 +107,7 @@ class Subject {
         data_(data.name),
         method_name_(method),
         pair_(workbench.pair(experiment)),
+        truth_(workbench.truth(experiment)),
         method_(make_method(experiment, workbench.registry())),
         device_(workbench.device(experiment)),
         seed_(static_cast<std::uint64_t>(experiment.integer("seed"))) {
@@ -111,7 +118,7 @@ class Subject {
   void warm_up() {
     const Stopwatch watch;
     const RegistrationResult result = register_pair(pair_, method_, device_, seed_);
-    const Evaluation evaluation(pair_, result.source, make_surface_image(pair_.target, pair_.camera));
+    const Evaluation evaluation(pair_, truth_, result.source, make_surface_image(pair_.target, pair_.camera));
     initial_ = evaluation.measure(result.source.points);
     metrics_ = evaluation.measure(result.points);
     counts_ = result.counts;
@@ -122,7 +129,9 @@ class Subject {
   int repetitions(int most) const { return std::clamp(static_cast<int>(5000 / warm_up_ms_), 1, most); }
 
   void repeat() {
+    const DeviceCounts before = device_.counts();
     RegistrationResult result = register_pair(pair_, method_, device_, seed_);
+    traffic_ = difference(device_.counts(), before);
     repetitions_.push_back({result.total_ms, std::move(result.time_ms)});
   }
 
@@ -138,6 +147,11 @@ class Subject {
             {"stages_ms", stages_of_median()},
             {"nodes", counts_.nodes},
             {"constraints", counts_.constraints},
+            {"uploads", traffic_.uploads},
+            {"uploaded_bytes", traffic_.uploaded_bytes},
+            {"reads", traffic_.reads},
+            {"read_bytes", traffic_.read_bytes},
+            {"allocations", traffic_.allocations},
             {"outer_iterations", counts_.outer_iterations},
             {"residual_mean", metrics_.residual_mean},
             {"epe_mean", epe(metrics_)},
@@ -156,11 +170,13 @@ class Subject {
 
   std::string data_, method_name_;
   const FramePair& pair_;
+  const std::optional<PairTruth>& truth_;
   Method method_;
   Device& device_;
   std::uint64_t seed_;
   Metrics initial_, metrics_;
   RegistrationResult::Counts counts_;
+  DeviceCounts traffic_;  ///< of the last repetition
   double warm_up_ms_ = 0;
   std::vector<Repetition> repetitions_;
 };
@@ -204,15 +220,22 @@ std::string stages_text(const ordered_json& row) {
   return text + fmt::format("smaller ones {:.1f}, outside of stages {:.1f}", small, std::max(rest, 0.0));
 }
 
+/// Megabytes, and in how many copies.
+std::string traffic_text(const ordered_json& row, const char* copies, const char* bytes) {
+  return fmt::format("{:.1f} MB in {}", 1e-6 * row[bytes].get<double>(), row[copies].get<int>());
+}
+
 void print(const ordered_json& rows) {
-  fmt::print("\n{:<7} {:<17} {:>8} {:>6} {:>6} {:>7} {:>6} {:>9} {:>7}  {}\n", "data", "method", "ms", "fps",
-             "nodes", "constr.", "rounds", "residual", "EPE", "where the time goes, ms");
+  fmt::print("\n{:<7} {:<17} {:>8} {:>6} {:>6} {:>7} {:>6} {:>9} {:>7}  {:>14} {:>14}  {}\n", "data",
+             "method", "ms", "fps", "nodes", "constr.", "rounds", "residual", "EPE", "to device", "to host",
+             "where the time goes, ms");
   for (const auto& row : rows)
-    fmt::print("{:<7} {:<17} {:>8.1f} {:>6.1f} {:>6} {:>7} {:>6} {:>9.3f} {:>7}  {}\n",
+    fmt::print("{:<7} {:<17} {:>8.1f} {:>6.1f} {:>6} {:>7} {:>6} {:>9.3f} {:>7}  {:>14} {:>14}  {}\n",
                row["data"].get<std::string>(), row["name"].get<std::string>(), row["time_ms"].get<double>(),
                row["fps"].get<double>(), row["nodes"].get<int>(), row["constraints"].get<int>(),
                row["outer_iterations"].get<int>(), row["residual_mean"].get<double>(),
                row["epe_mean"].is_null() ? "-" : fmt::format("{:.3f}", row["epe_mean"].get<double>()),
+               traffic_text(row, "uploads", "uploaded_bytes"), traffic_text(row, "reads", "read_bytes"),
                stages_text(row));
 }
 

@@ -4,7 +4,7 @@
 
 namespace pliant {
 
-/// Adds every data source that comes with the project.
+/// Adds every frame source that comes with the project.
 void register_datasets(Registry& registry);
 
 }  // namespace pliant

@@ -10,11 +10,11 @@
 namespace pliant {
 namespace {
 
-bool has_point(const RgbdFrame& frame, std::size_t pixel) {
+bool has_point(const Frame& frame, std::size_t pixel) {
   return is_depth(frame.depth.pixels()[pixel]) && (frame.mask.empty() || frame.mask.pixels()[pixel] != 0);
 }
 
-std::vector<float> depths_of(const RgbdFrame& frame) {
+std::vector<float> depths_of(const Frame& frame) {
   std::vector<float> depths;
   for (std::size_t i = 0; i < frame.depth.size(); ++i)
     if (has_point(frame, i)) depths.push_back(frame.depth.pixels()[i]);
@@ -56,7 +56,7 @@ std::string doubt_about_unit(std::vector<float> depths, double depth_scale, cons
 }
 
 /// Sums over all pixels above and left of each corner of a pixel.
-Image<int> summed_points(const RgbdFrame& frame) {
+Image<int> summed_points(const Frame& frame) {
   const int width = frame.depth.width();
   Image<int> sums(width + 1, frame.depth.height() + 1, 0);
   for (int v = 0; v < frame.depth.height(); ++v) {
@@ -70,7 +70,7 @@ Image<int> summed_points(const RgbdFrame& frame) {
 }
 
 /// The share of points in whose window lie too few points for a normal.
-double lonely_share(const RgbdFrame& frame, const Image<int>& sums, int radius) {
+double lonely_share(const Frame& frame, const Image<int>& sums, int radius) {
   const int width = frame.depth.width();
   const int height = frame.depth.height();
   int lonely = 0;
@@ -88,7 +88,7 @@ double lonely_share(const RgbdFrame& frame, const Image<int>& sums, int radius) 
   return static_cast<double>(lonely) / sums(width, height);
 }
 
-std::string doubt_about_density(const RgbdFrame& frame, const std::string& path) {
+std::string doubt_about_density(const Frame& frame, const std::string& path) {
   const Image<int> sums = summed_points(frame);
   const double without = lonely_share(frame, sums, widest_normal_radius);
   if (without > 0.5)
@@ -108,8 +108,7 @@ std::string doubt_about_density(const RgbdFrame& frame, const std::string& path)
 
 }  // namespace
 
-std::vector<std::string> doubts_about_depth(const RgbdFrame& frame, double depth_scale,
-                                            const std::string& path) {
+std::vector<std::string> doubts_about_depth(const Frame& frame, double depth_scale, const std::string& path) {
   std::vector<std::string> doubts;
   for (auto& doubt :
        {doubt_about_unit(depths_of(frame), depth_scale, path), doubt_about_density(frame, path)})

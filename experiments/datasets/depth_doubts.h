@@ -16,7 +16,6 @@ namespace pliant {
 ///  widest
 ///    one: what can be had from it is coarse.
 /// Only pixels inside the mask count, where there is one.
-std::vector<std::string> doubts_about_depth(const RgbdFrame& frame, double depth_scale,
-                                            const std::string& path);
+std::vector<std::string> doubts_about_depth(const Frame& frame, double depth_scale, const std::string& path);
 
 }  // namespace pliant

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "experiments/datasets/kinect_noise.h"
+#include "experiments/datasets/stored_pair.h"
 #include "experiments/datasets/texture.h"
 #include "experiments/datasets/virtual_camera.h"
 #include "framework/core/error.h"
@@ -44,9 +45,9 @@ Points transformed(Points points, const Eigen::Affine3d& transform) {
   return points;
 }
 
-RgbdFrame picture_of(const Image<Fragment>& seen, const std::vector<Eigen::Vector3i>& triangles,
-                     const Points& at_rest) {
-  RgbdFrame frame{depth_of(seen), ColorImage(seen.width(), seen.height()), {}};
+Frame picture_of(const Image<Fragment>& seen, const std::vector<Eigen::Vector3i>& triangles,
+                 const Points& at_rest) {
+  Frame frame{depth_of(seen), ColorImage(seen.width(), seen.height()), {}};
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Fragment& fragment = seen.data()[i];
     if (fragment.triangle < 0) continue;
@@ -168,7 +169,7 @@ std::string RenderedMesh::described_size() const {
       size.x(), size.y(), size.z(), settings_.mesh_scale);
 }
 
-FramePair RenderedMesh::load(std::uint64_t seed) const {
+std::unique_ptr<DataStream> RenderedMesh::open(std::uint64_t seed) const {
   const Camera& camera = settings_.camera;
   const Eigen::Translation3d to_middle(0, 0, settings_.distance);
   const Points source = transformed(mesh_.deform(source_), placement());
@@ -180,26 +181,26 @@ FramePair RenderedMesh::load(std::uint64_t seed) const {
   check_is_seen(seen_source, "source");
   check_is_seen(seen_target, "target");
 
-  FramePair pair;
+  StoredPair pair;
   pair.name = fmt::format("{}, {} to {}", std::filesystem::path(settings_.mesh).stem().string(),
                           described(settings_.source), described(settings_.target));
-  pair.camera = camera;
+  pair.rig.depth = camera;
   if (const double length = box().sizes().maxCoeff(); length < smallest_mesh || length > largest_mesh)
     pair.warnings.push_back(fmt::format("{}: {}", settings_.mesh, described_size()));
   pair.source = picture_of(seen_source, mesh_.triangles, at_rest);
   pair.target = picture_of(seen_target, mesh_.triangles, at_rest);
-  pair.scene_flow = scene_flow(seen_source, mesh_.triangles, source, target);
+  pair.truth = PairTruth{scene_flow(seen_source, mesh_.triangles, source, target)};
   KinectNoise noise(settings_.noise, camera.fx, seed);
   noise.disturb(pair.source.depth);
   noise.disturb(pair.target.depth);
   // After the noise, so that what is left is the same with and without.
   hide_left_part(pair.target.depth, settings_.hide_left);
-  return pair;
+  return std::make_unique<StoredPairStream>(std::move(pair));
 }
 
 void register_rendered_mesh(Registry& registry) {
   const RenderedMesh::Settings defaults;
-  registry.add<DataSource>(
+  registry.add<FrameSource>(
       "rendered_mesh", "A mesh seen with one expression and then another, with its true motion",
       with_camera({
           path("mesh").doc("binary glTF file (.glb), y up, looking along +z"),
@@ -220,7 +221,7 @@ void register_rendered_mesh(Registry& registry) {
               .range(0, 0.9)
               .doc("share of the target's width, from its left in the image, that has no depth"),
       }),
-      [](const Parameters& parameters, const Registry&) -> std::unique_ptr<DataSource> {
+      [](const Parameters& parameters, const Registry&) -> std::unique_ptr<FrameSource> {
         RenderedMesh::Settings settings;
         settings.mesh = parameters.text("mesh");
         settings.mesh_scale = parameters.real("mesh_scale");

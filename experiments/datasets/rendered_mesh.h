@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "experiments/datasets/data_source.h"
+#include "experiments/datasets/frame_source.h"
 #include "framework/core/registry.h"
 #include "framework/geometry/mesh.h"
 #include "framework/geometry/render.h"
@@ -16,7 +17,7 @@ namespace pliant {
 /// y axis up. There is no background. Without noise the depth of every pixel is exact (not rounded to whole
 /// millimetres); the scene flow is the exact motion of the material seen at each source pixel, also under
 /// noise and where the target hides it.
-class RenderedMesh : public DataSource {
+class RenderedMesh : public FrameSource {
  public:
   struct Settings {
     std::string mesh;          ///< path of a .glb file
@@ -40,7 +41,7 @@ class RenderedMesh : public DataSource {
 
   /// The seed is that of the noise. Throws DataError, with the size of the mesh, when no pixel sees it or the
   /// camera is inside of it.
-  FramePair load(std::uint64_t seed) const override;
+  std::unique_ptr<DataStream> open(std::uint64_t seed) const override;
 
  private:
   std::vector<double> weights_of(const std::string& key, const std::vector<std::string>& expression) const;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "experiments/datasets/depth_doubts.h"
+#include "experiments/datasets/stored_pair.h"
 #include "framework/core/error.h"
 #include "framework/io/images.h"
 #include "framework/io/intrinsics.h"
@@ -17,14 +18,16 @@
 namespace pliant {
 namespace {
 
-/// Throws unless `image` (of the file `path`) has the size of the depth image it belongs to.
-template <class AnyImage, class Depth>
-void check_size(const AnyImage& image, const std::string& path, const Depth& depth,
-                const std::string& depth_path) {
-  if (image.width() == depth.width() && image.height() == depth.height()) return;
-  throw DataError(fmt::format("{}: {}x{} pixels, but the depth image {} has {}x{}", path, image.width(),
-                              image.height(), depth_path, depth.width(), depth.height()));
+/// Throws unless `image` (of the file `path`) has the size of the one it belongs to: "the depth image b.png".
+template <class AnyImage, class Other>
+void check_size(const AnyImage& image, const std::string& path, const Other& other,
+                const std::string& which) {
+  if (image.width() == other.width() && image.height() == other.height()) return;
+  throw DataError(fmt::format("{}: {}x{} pixels, but {} has {}x{}", path, image.width(), image.height(),
+                              which, other.width(), other.height()));
 }
+
+std::string depth_named(const std::string& path) { return "the depth image " + path; }
 
 void scale(DepthImage& depth, double factor) {
   std::transform(depth.data(), depth.data() + depth.size(), depth.data(),
@@ -36,11 +39,11 @@ void drop_farther(DepthImage& depth, double limit) {
       depth.data(), depth.data() + depth.size(), [limit](float value) { return value > limit; }, 0.0f);
 }
 
-bool has_point(const RgbdFrame& frame, std::size_t pixel) {
+bool has_point(const Frame& frame, std::size_t pixel) {
   return frame.depth.pixels()[pixel] > 0 && (frame.mask.empty() || frame.mask.pixels()[pixel] != 0);
 }
 
-void check_has_points(const RgbdFrame& frame, const RgbdPair::FrameFiles& files,
+void check_has_points(const Frame& frame, const RgbdPair::FrameFiles& files,
                       std::optional<double> max_depth) {
   for (std::size_t i = 0; i < frame.depth.size(); ++i) {
     if (has_point(frame, i)) return;
@@ -59,17 +62,18 @@ MaskImage read_object_mask(const std::string& path) {
   return mask;
 }
 
-RgbdFrame read_frame(const RgbdPair::FrameFiles& files, const RgbdPair::Settings& settings) {
-  RgbdFrame frame;
+Frame read_frame(const RgbdPair::FrameFiles& files, const RgbdPair::Settings& settings) {
+  Frame frame;
   frame.depth = read_depth(files.depth);
   scale(frame.depth, settings.depth_scale);
   if (!files.color.empty()) {
     frame.color = read_color(files.color);
-    check_size(frame.color, files.color, frame.depth, files.depth);
+    if (settings.color_intrinsics.empty())
+      check_size(frame.color, files.color, frame.depth, depth_named(files.depth));
   }
   if (!files.mask.empty()) {
     frame.mask = read_object_mask(files.mask);
-    check_size(frame.mask, files.mask, frame.depth, files.depth);
+    check_size(frame.mask, files.mask, frame.depth, depth_named(files.depth));
   }
   if (settings.max_depth) drop_farther(frame.depth, *settings.max_depth);
   check_has_points(frame, files, settings.max_depth);
@@ -80,16 +84,63 @@ void add(std::vector<std::string> more, std::vector<std::string>& warnings) {
   std::move(more.begin(), more.end(), std::back_inserter(warnings));
 }
 
+/// Two cameras that stand closer than their lenses could were probably measured in metres.
+std::vector<std::string> doubts_about_distance(const Eigen::Isometry3d& color_from_depth,
+                                               const std::string& name) {
+  const double distance = color_from_depth.translation().norm();
+  if (distance == 0 || distance >= 1) return {};
+  return {fmt::format(
+      "{}: 'color_from_depth' puts the cameras {:g} mm apart; if it counts in metres, write {:g} mm", name,
+      distance, 1000 * distance)};
+}
+
+/// Gives the rig the colour camera of its own, whose images have the size of those that there are.
+void add_color_camera(const RgbdPair::Settings& settings, StoredPair& pair) {
+  const bool source_has_it = !pair.source.color.empty();
+  const ColorImage& color = source_has_it ? pair.source.color : pair.target.color;
+  if (source_has_it && !pair.target.color.empty())
+    check_size(pair.target.color, settings.target.color, color, "the colour image " + settings.source.color);
+  Intrinsics intrinsics = read_intrinsics(settings.color_intrinsics, color.width(), color.height());
+  pair.rig.color = intrinsics.camera;
+  pair.rig.color_from_depth = settings.color_from_depth;
+  add(std::move(intrinsics.warnings), pair.warnings);
+  add(doubts_about_distance(settings.color_from_depth, pair.name), pair.warnings);
+}
+
 // A truth that says nothing about the source belongs to another image.
-void check_has_truth(const FramePair& pair, const std::string& path) {
-  for (std::size_t i = 0; i < pair.scene_flow.size(); ++i) {
-    if (has_point(pair.source, i) && pair.scene_flow.pixels()[i].allFinite()) return;
+void check_has_truth(const Frame& source, const PairTruth& truth, const std::string& path) {
+  for (std::size_t i = 0; i < truth.scene_flow.size(); ++i) {
+    if (has_point(source, i) && truth.scene_flow.pixels()[i].allFinite()) return;
   }
   throw DataError(fmt::format("{}: no ground truth on any point of the source", path));
 }
 
 std::string path_or_empty(const Parameters& section, const std::string& name) {
   return section.has(name) ? section.text(name) : "";
+}
+
+/// Row by row. Throws ConfigError unless it is a rigid motion.
+Eigen::Isometry3d rigid_motion(const Parameters& section, const std::string& name) {
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix(section.reals(name).data());
+  if (!is_rigid(matrix))
+    throw ConfigError(fmt::format(
+        "{}: '{}' is no rigid motion; expected a 4x4 matrix row by row: [R, t; 0 0 0 1] with a rotation R "
+        "and t in mm",
+        section.place(), name));
+  return Eigen::Isometry3d(matrix);
+}
+
+void read_color_camera(const Parameters& section, RgbdPair::Settings& settings) {
+  if (!section.has("color_intrinsics") && !section.has("color_from_depth")) return;
+  if (!section.has("color_intrinsics") || !section.has("color_from_depth"))
+    throw ConfigError(fmt::format(
+        "{}: a colour camera of its own has both 'color_intrinsics' and 'color_from_depth'; '{}' is missing",
+        section.place(), section.has("color_intrinsics") ? "color_from_depth" : "color_intrinsics"));
+  if (settings.source.color.empty() && settings.target.color.empty())
+    throw ConfigError(
+        fmt::format("{}: 'color_intrinsics' without a 'color' of 'source' or 'target'", section.place()));
+  settings.color_intrinsics = section.text("color_intrinsics");
+  settings.color_from_depth = rigid_motion(section, "color_from_depth");
 }
 
 RgbdPair::FrameFiles frame_files(const Parameters& section) {
@@ -99,42 +150,52 @@ RgbdPair::FrameFiles frame_files(const Parameters& section) {
 ParameterTable frame_table() {
   return {
       path("depth").doc("16-bit PNG of depth, 0 where there is none"),
-      path("color").optional().doc("PNG or JPEG, aligned with the depth"),
+      path("color").optional().doc("PNG or JPEG; has the depth's pixels unless color_intrinsics is given"),
       path("mask").optional().doc("PNG, not black and not transparent on the object"),
   };
 }
 
 }  // namespace
 
-FramePair RgbdPair::load(std::uint64_t /*seed*/) const {
-  FramePair pair;
+std::unique_ptr<DataStream> RgbdPair::open(std::uint64_t /*seed*/) const {
+  StoredPair pair;
   const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
   pair.name = stem(settings_.source.depth) + " to " + stem(settings_.target.depth);
   pair.source = read_frame(settings_.source, settings_);
   pair.target = read_frame(settings_.target, settings_);
-  check_size(pair.target.depth, settings_.target.depth, pair.source.depth, settings_.source.depth);
+  check_size(pair.target.depth, settings_.target.depth, pair.source.depth,
+             depth_named(settings_.source.depth));
   Intrinsics intrinsics =
       read_intrinsics(settings_.intrinsics, pair.source.depth.width(), pair.source.depth.height());
-  pair.camera = intrinsics.camera;
+  pair.rig.depth = intrinsics.camera;
   pair.warnings = std::move(intrinsics.warnings);
+  if (!settings_.color_intrinsics.empty()) add_color_camera(settings_, pair);
   const double depth_scale = settings_.depth_scale;
   add(doubts_about_depth(pair.source, depth_scale, settings_.source.depth), pair.warnings);
   add(doubts_about_depth(pair.target, depth_scale, settings_.target.depth), pair.warnings);
   if (!settings_.scene_flow.empty()) {
-    pair.scene_flow = read_scene_flow(settings_.scene_flow);
-    check_size(pair.scene_flow, settings_.scene_flow, pair.source.depth, settings_.source.depth);
-    check_has_truth(pair, settings_.scene_flow);
+    pair.truth = PairTruth{read_scene_flow(settings_.scene_flow)};
+    check_size(pair.truth->scene_flow, settings_.scene_flow, pair.source.depth,
+               depth_named(settings_.source.depth));
+    check_has_truth(pair.source, *pair.truth, settings_.scene_flow);
   }
-  return pair;
+  return std::make_unique<StoredPairStream>(std::move(pair));
 }
 
 void register_rgbd_pair(Registry& registry) {
-  registry.add<DataSource>(
-      "rgbd_pair", "Two RGB-D images from files, seen by one camera",
+  registry.add<FrameSource>(
+      "rgbd_pair", "Two RGB-D images from files, seen by one camera or by two",
       {
           group("source", frame_table()).doc("the image that is deformed"),
           group("target", frame_table()).doc("the image it is deformed to"),
           path("intrinsics").doc("text file with the 3x3 or 4x4 camera matrix in pixels"),
+          path("color_intrinsics")
+              .optional()
+              .doc("likewise of the colour camera, where colour is seen by one of its own"),
+          reals("color_from_depth", 16)
+              .unit("mm")
+              .optional()
+              .doc("4x4 matrix, row by row, from the depth camera's frame to the colour camera's"),
           path("scene_flow").optional().doc("true motion of every source pixel (.sflow)"),
           real("depth_scale", 1)
               .unit("mm")
@@ -146,11 +207,12 @@ void register_rgbd_pair(Registry& registry) {
               .optional()
               .doc("farther depth is dropped; nothing by default"),
       },
-      [](const Parameters& parameters, const Registry&) -> std::unique_ptr<DataSource> {
+      [](const Parameters& parameters, const Registry&) -> std::unique_ptr<FrameSource> {
         RgbdPair::Settings settings;
         settings.source = frame_files(parameters.section("source"));
         settings.target = frame_files(parameters.section("target"));
         settings.intrinsics = parameters.text("intrinsics");
+        read_color_camera(parameters, settings);
         settings.scene_flow = path_or_empty(parameters, "scene_flow");
         settings.depth_scale = parameters.real("depth_scale");
         if (parameters.has("max_depth")) settings.max_depth = parameters.real("max_depth");

@@ -20,8 +20,8 @@ Eigen::Vector2d ray(const Camera& camera, int u, int v) { return camera.unprojec
 
 /// What the camera sees of the sheet where `see` tells which material a ray meets and `place` where it is.
 template <class See, class Place>
-RgbdFrame render(const Camera& camera, See see, Place place) {
-  RgbdFrame frame{DepthImage(camera.width, camera.height), ColorImage(camera.width, camera.height), {}};
+Frame render(const Camera& camera, See see, Place place) {
+  Frame frame{DepthImage(camera.width, camera.height), ColorImage(camera.width, camera.height), {}};
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
       const Eigen::Vector2d slope = ray(camera, u, v);
@@ -54,6 +54,58 @@ void check_is_seen(const DepthImage& depth, const char* which) {
   throw DataError(fmt::format("synthetic_sheet: no pixel of the camera sees the {} sheet", which));
 }
 
+/// The share of the whole deformation that frame `number`, from 2 on, shows.
+double share_of(int number, int frames) {
+  const double way = static_cast<double>(number - 1) / (frames - 1);
+  return way * way * (3 - 2 * way);
+}
+
+class SheetStream : public DataStream {
+ public:
+  SheetStream(const BendingSheet& sheet, const SyntheticSheet::Settings& settings, std::uint64_t seed)
+      : sheet_(sheet),
+        rig_{settings.camera},
+        frames_(settings.frames),
+        noise_(settings.noise, settings.camera.fx, seed) {}
+
+  std::string name() const override { return "synthetic sheet"; }
+  const Rig& rig() const override { return rig_; }
+
+  std::optional<Frame> next() override {
+    if (given_ == frames_) return std::nullopt;
+    ++given_;
+    Frame frame = given_ == 1 ? flat() : bent(sheet_.partly(share_of(given_, frames_)));
+    check_is_seen(frame.depth, given_ == 1 ? "flat" : "bent");
+    noise_.disturb(frame.depth);
+    frame.time = (given_ - 1) / 30.0;
+    return frame;
+  }
+
+  std::optional<PairTruth> truth(int number) const override {
+    if (number < 2 || number > frames_) return std::nullopt;
+    return PairTruth{true_motion(rig_.depth, sheet_.partly(share_of(number, frames_)))};
+  }
+
+ private:
+  Frame flat() const {
+    return render(
+        rig_.depth, [&](double a, double b) { return sheet_.see_flat(a, b); },
+        [&](double s, double t) { return sheet_.flat(s, t); });
+  }
+
+  Frame bent(const BendingSheet& sheet) const {
+    return render(
+        rig_.depth, [&](double a, double b) { return sheet.see_bent(a, b); },
+        [&](double s, double t) { return sheet.bent(s, t); });
+  }
+
+  BendingSheet sheet_;
+  Rig rig_;
+  int frames_;
+  KinectNoise noise_;
+  int given_ = 0;
+};
+
 }  // namespace
 
 BendingSheet::BendingSheet(const Shape& shape)
@@ -78,6 +130,13 @@ void BendingSheet::check() const {
         "frequency and width, or a lower frequency",
         limit / w_));
   }
+}
+
+BendingSheet BendingSheet::partly(double share) const {
+  Shape shape = shape_;
+  shape.amplitude *= share;
+  shape.approach *= share;
+  return BendingSheet(shape);
 }
 
 double BendingSheet::x(double s) const { return std::ellint_2(k_, w_ * s) / w_; }
@@ -120,28 +179,13 @@ std::optional<double> BendingSheet::solve(double a) const {
   return s;
 }
 
-FramePair SyntheticSheet::load(std::uint64_t seed) const {
-  FramePair pair;
-  pair.name = "synthetic sheet";
-  pair.camera = camera_;
-  pair.source = render(
-      camera_, [&](double a, double b) { return sheet_.see_flat(a, b); },
-      [&](double s, double t) { return sheet_.flat(s, t); });
-  pair.target = render(
-      camera_, [&](double a, double b) { return sheet_.see_bent(a, b); },
-      [&](double s, double t) { return sheet_.bent(s, t); });
-  check_is_seen(pair.source.depth, "flat");
-  check_is_seen(pair.target.depth, "bent");
-  pair.scene_flow = true_motion(camera_, sheet_);
-  KinectNoise noise(noise_, camera_.fx, seed);
-  noise.disturb(pair.source.depth);
-  noise.disturb(pair.target.depth);
-  return pair;
+std::unique_ptr<DataStream> SyntheticSheet::open(std::uint64_t seed) const {
+  return std::make_unique<SheetStream>(sheet_, settings_, seed);
 }
 
 void register_synthetic_sheet(Registry& registry) {
   const BendingSheet::Shape shape;
-  registry.add<DataSource>(
+  registry.add<FrameSource>(
       "synthetic_sheet",
       "A flat sheet that bends without stretching, with its true motion [thesis data set I]",
       with_camera({
@@ -151,15 +195,20 @@ void register_synthetic_sheet(Registry& registry) {
               .unit("mm")
               .doc("how far the whole sheet comes nearer while bending"),
           real("noise", 0).range(0, 10).doc("strength of Kinect-like depth noise: 0 none, 1 as the camera"),
+          integer("frames", 2)
+              .range(2, 1000000)
+              .doc("length of the stream, over which the sheet bends; a pair is its first two"),
           real("sheet_width", shape.width).unit("mm").above(0).doc("size of the sheet in x, where it bends"),
           real("sheet_height", shape.height).unit("mm").above(0).doc("size of the sheet in y"),
           real("distance", shape.distance).unit("mm").above(0).doc("of the flat sheet from the camera"),
       }),
-      [](const Parameters& parameters, const Registry&) -> std::unique_ptr<DataSource> {
+      [](const Parameters& parameters, const Registry&) -> std::unique_ptr<FrameSource> {
         const BendingSheet sheet({parameters.real("sheet_width"), parameters.real("sheet_height"),
                                   parameters.real("distance"), parameters.real("amplitude"),
                                   parameters.real("frequency"), parameters.real("approach")});
-        return std::make_unique<SyntheticSheet>(sheet, virtual_camera(parameters), parameters.real("noise"));
+        return std::make_unique<SyntheticSheet>(
+            sheet, SyntheticSheet::Settings{virtual_camera(parameters), parameters.real("noise"),
+                                            static_cast<int>(parameters.integer("frames"))});
       });
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 
-#include "experiments/datasets/data_source.h"
+#include "experiments/datasets/frame_source.h"
 #include "framework/core/registry.h"
 
 namespace pliant {
@@ -31,6 +32,9 @@ class BendingSheet {
   /// Throws ConfigError when the bent sheet would reach the camera or hide a part of itself from it.
   explicit BendingSheet(const Shape& shape);
 
+  /// The sheet on its way from flat to bent: amplitude and approach are `share` of the whole, above 0 to 1.
+  BendingSheet partly(double share) const;
+
   Eigen::Vector3d flat(double s, double t) const { return {s, t, shape_.distance}; }
   Eigen::Vector3d bent(double s, double t) const { return {x(s), t, z(s)}; }
 
@@ -50,23 +54,27 @@ class BendingSheet {
   double k_;
 };
 
-/// The sheet, flat as the source and bent as the target [thesis data set I], seen by a pinhole camera with
-/// no background, its material coloured by the texture at (s, t, 0). Without noise the depth of every pixel
-/// is exact (not rounded to whole millimetres); the scene flow is the exact motion of the material seen at
-/// each source pixel, also under noise.
-class SyntheticSheet : public DataSource {
+/// The sheet, flat in the first frame and bent in the last [thesis data set I], seen 30 times a second by a
+/// pinhole camera with no background, its material coloured by the texture at (s, t, 0). At the share x of
+/// the way, 3 x^2 - 2 x^3 of amplitude and approach are reached: it starts and ends at rest. Without noise
+/// the depth of every pixel is exact (not rounded to whole millimetres); the scene flow is the exact motion
+/// of the material seen at each pixel of the first frame, also under noise.
+class SyntheticSheet : public FrameSource {
  public:
-  /// `noise`: strength of the KinectNoise on both depth images.
-  SyntheticSheet(const BendingSheet& sheet, const Camera& camera, double noise)
-      : sheet_(sheet), camera_(camera), noise_(noise) {}
+  struct Settings {
+    Camera camera;
+    double noise = 0;  ///< strength of the KinectNoise on the depth images
+    int frames = 2;    ///< at least 2
+  };
+  SyntheticSheet(const BendingSheet& sheet, const Settings& settings) : sheet_(sheet), settings_(settings) {}
 
-  /// The seed is that of the noise. Throws DataError when no pixel sees the sheet.
-  FramePair load(std::uint64_t seed) const override;
+  /// The seed is that of the noise. A frame in which no pixel sees the sheet is a DataError. Frames are made
+  /// when they are asked for.
+  std::unique_ptr<DataStream> open(std::uint64_t seed) const override;
 
  private:
   BendingSheet sheet_;
-  Camera camera_;
-  double noise_;
+  Settings settings_;
 };
 
 void register_synthetic_sheet(Registry& registry);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "experiments/datasets/data_source.h"
+#include "experiments/datasets/frame_source.h"
 #include "experiments/report/report.h"
 #include "framework/config/config_reader.h"
 #include "framework/config/config_sweep.h"
@@ -93,7 +93,7 @@ ParameterTable experiment_table() {
       integer("seed", 1).range(0, 4294967295.0).doc("of everything that is drawn at random"),
       text("device", "any").doc("OpenCL device: any, cpu, gpu, or a part of its name"),
       group("kernels", kernels_table()).doc("how kernels are shaped for the device"),
-      component("data", DataSource::kind).doc("what is registered"),
+      component("data", FrameSource::kind).doc("what is registered"),
   };
   rows.push_back(components("handles", Handle::kind)
                      .optional()

@@ -105,7 +105,7 @@ class Runs {
 
   RunSummary make_run(const ExperimentRun& run, const fs::path& folder, const RunStore& finished) const {
     const ProgressSink progress = under_name(progress_, run.name);
-    const RunArtefacts made = task_.make(run, workbench_, progress, repeats_);
+    RunArtefacts made = task_.make(run, workbench_, progress, repeats_);
     const fs::path own = plan_.has_variants() ? folder / run.name : folder;
     std::error_code error;
     fs::create_directories(own, error);

@@ -114,8 +114,9 @@ std::vector<SolverTrial> try_solvers(const ExperimentRun& run, const Bench& benc
                                      const ProgressSink& progress) {
   std::vector<SolverTrial> trials;
   const auto& solvers = run.values.sections("solvers");
-  for (const auto& [name, section] : solvers) {
-    const auto solver = registry.make<Solver>(section);
+  for (const auto& entry : solvers) {
+    const std::string& name = entry.first;
+    const auto solver = registry.make<Solver>(entry.second);
     trials.push_back(
         told_with_place(run.place + ", solver " + name, [&] { return try_solver(name, *solver, bench); }));
     const SolverTrial& trial = trials.back();

@@ -24,10 +24,9 @@ void add_truth_row(Table& table, const Measured& measured, const char* name,
 
 }  // namespace
 
-Measured measure(const FramePair& pair, const SurfaceImage& target, const RegistrationResult& result,
+Measured measure(const Evaluation& evaluation, const RegistrationResult& result,
                  const ProgressSink& progress) {
   progress({"", 1, "measuring distances"});
-  const Evaluation evaluation(pair, result.source, target);
   const auto stage = [&](const std::vector<Eigen::Vector3f>& points) {
     const auto nearest = evaluation.nearest(points, [&](double share) {
       progress({"", 1, fmt::format("measuring distances: {:.0f} %", 100 * share)});

@@ -21,8 +21,7 @@ struct Measured {
   Stage final;    ///< at the end
 };
 
-/// `target`: the points of the pair's target.
-Measured measure(const FramePair& pair, const SurfaceImage& target, const RegistrationResult& result,
+Measured measure(const Evaluation& evaluation, const RegistrationResult& result,
                  const ProgressSink& progress);
 
 nlohmann::ordered_json metrics_json(const Metrics& metrics);

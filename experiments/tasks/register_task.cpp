@@ -31,7 +31,8 @@ class RegisterTask : public Task {
       });
     });
     const SurfaceImage target = make_surface_image(device, pair.target, pair.camera);
-    return registration_artefacts(run, pair, target, result, timing, progress);
+    const Evaluation evaluation(pair, workbench.truth(run.values), result.source, target);
+    return registration_artefacts(run, pair, target, result, measure(evaluation, result, progress), timing);
   }
 };
 

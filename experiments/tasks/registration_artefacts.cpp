@@ -9,7 +9,6 @@
 
 #include "experiments/report/heat_map.h"
 #include "experiments/tasks/drawings.h"
-#include "experiments/tasks/measured.h"
 #include "experiments/tasks/result_parts.h"
 
 namespace pliant {
@@ -175,8 +174,7 @@ std::vector<NamedSurface> surfaces(const RegistrationResult& result, const Surfa
 
 RunArtefacts registration_artefacts(const ExperimentRun& run, const FramePair& pair,
                                     const SurfaceImage& target, const RegistrationResult& result,
-                                    const Timing& timing, const ProgressSink& progress) {
-  const Measured measured = measure(pair, target, result, progress);
+                                    const Measured& measured, const Timing& timing) {
   RunArtefacts made{{run.name, run_json(run.name, result, measured, timing),
                      summary(run.name, result, measured, timing),
                      notes_of(ending(result), result.warnings, timing)}};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "experiments/report/artefacts.h"
+#include "experiments/tasks/measured.h"
 #include "experiments/tasks/task.h"
 #include "experiments/tasks/timing.h"
 #include "framework/geometry/surface.h"
@@ -8,10 +9,9 @@
 
 namespace pliant {
 
-/// What the registration of a pair came to. `target`: the points of the pair's target. Distances are measured
-/// here, and `progress` is told of it.
+/// What the registration of a pair came to. `target`: the points of the pair's target.
 RunArtefacts registration_artefacts(const ExperimentRun& run, const FramePair& pair,
                                     const SurfaceImage& target, const RegistrationResult& result,
-                                    const Timing& timing, const ProgressSink& progress);
+                                    const Measured& measured, const Timing& timing);
 
 }  // namespace pliant

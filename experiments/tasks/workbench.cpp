@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <type_traits>
 
-#include "experiments/datasets/data_source.h"
+#include "experiments/datasets/frame_source.h"
 
 namespace pliant {
 
@@ -80,14 +80,15 @@ Device& Workbench::device(const Parameters& experiment) {
   return *device;
 }
 
-const FramePair& Workbench::pair(const Parameters& experiment) {
+const Workbench::Data& Workbench::data(const Parameters& experiment) {
   const Parameters& section = experiment.section("data");
   const auto seed = experiment.integer("seed");
   const std::string key = fmt::format("{} {}", seed, fingerprint(section));
-  const auto known = pairs_.find(key);
-  if (known != pairs_.end()) return known->second;
-  const auto source = registry_.make<DataSource>(section);
-  return pairs_.emplace(key, source->load(static_cast<std::uint64_t>(seed))).first->second;
+  const auto known = data_.find(key);
+  if (known != data_.end()) return known->second;
+  const auto stream = registry_.make<FrameSource>(section)->open(static_cast<std::uint64_t>(seed));
+  Data data{read_pair(*stream), stream->truth(2)};
+  return data_.emplace(key, std::move(data)).first->second;
 }
 
 }  // namespace pliant

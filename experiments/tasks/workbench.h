@@ -2,12 +2,14 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "framework/core/error.h"
 #include "framework/core/registry.h"
 #include "framework/device/device.h"
+#include "framework/evaluation/truth.h"
 #include "framework/geometry/frame.h"
 
 namespace pliant {
@@ -31,14 +33,22 @@ class Workbench {
   const Registry& registry() const { return registry_; }
   /// Throws DeviceError when there is none that the experiment would take.
   Device& device(const Parameters& experiment);
-  /// Throws DataError when it cannot be used.
-  const FramePair& pair(const Parameters& experiment);
+  /// The first two frames of the experiment's data. Throws DataError when they cannot be used.
+  const FramePair& pair(const Parameters& experiment) { return data(experiment).pair; }
+  /// What is known of that pair, for who measures.
+  const std::optional<PairTruth>& truth(const Parameters& experiment) { return data(experiment).truth; }
 
  private:
+  struct Data {
+    FramePair pair;
+    std::optional<PairTruth> truth;
+  };
+  const Data& data(const Parameters& experiment);
+
   const Registry& registry_;
   ProgressSink tell_of_building_;
   std::map<std::string, std::unique_ptr<Device>> devices_;  // by what was asked for
-  std::map<std::string, FramePair> pairs_;                  // by data section and seed
+  std::map<std::string, Data> data_;                        // by data section and seed
 };
 
 /// Does the work of a run. What a registration finds wrong is told with the place it came from, because the

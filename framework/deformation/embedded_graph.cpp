@@ -7,21 +7,24 @@
 
 namespace pliant {
 
-EmbeddedGraph embed_graph(Device& device, const NodeSelection& selection,
-                          const std::vector<Eigen::Vector3f>& points, const Array<float>& device_points,
-                          int nearest_nodes, const std::string& name, StageTimes& times) {
+EmbeddedGraph embed_graph(Device& device, const NodeSelection& selection, const PointSet& points,
+                          int nearest_nodes, const std::string& name) {
   EmbeddedGraph graph;
   graph.nodes = selection.points();
   if (graph.nodes.empty())
     throw DataError(fmt::format("{}: no node of the graph falls on the source; choose a finer one", name));
   graph.cells = selection.cells();
-  for (const int node : graph.nodes) graph.positions.push_back(points[static_cast<std::size_t>(node)]);
-  graph.node_points = flatten(graph.positions);
-  graph.influences = compute_influences(device, device_points, graph.positions, nearest_nodes);
+  graph.node_points = std::move(pick_points(device, points, Array<int>(graph.nodes)).points);
+  graph.positions = unflatten(graph.node_points);
+  graph.influences = compute_influences(device, points.points, graph.positions, nearest_nodes);
+  graph.influences.nodes.fetch();
+  return graph;
+}
+
+void connect(EmbeddedGraph& graph, StageTimes& times) {
   graph.influences.nodes.host();  // waits here for the device: its "weights" are not the time of "edges"
   graph.edges = timed(times, "edges",
                       [&] { return find_edges(graph.influences, static_cast<int>(graph.nodes.size())); });
-  return graph;
 }
 
 }  // namespace pliant

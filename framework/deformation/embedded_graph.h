@@ -7,6 +7,7 @@
 #include "framework/deformation/graph.h"
 #include "framework/deformation/node_selection.h"
 #include "framework/deformation/skinning.h"
+#include "framework/geometry/point_set.h"
 
 namespace pliant {
 
@@ -21,10 +22,12 @@ struct EmbeddedGraph {
   std::vector<GraphCell> cells;  ///< of the nodes, where they have some
 };
 
-/// `points` (mm) and `device_points` are the same. Adds to `times` what the host spent on "edges". `name` of
-/// the points is for the DataError when no node is selected.
-EmbeddedGraph embed_graph(Device& device, const NodeSelection& selection,
-                          const std::vector<Eigen::Vector3f>& points, const Array<float>& device_points,
-                          int nearest_nodes, const std::string& name, StageTimes& times);
+/// A graph without edges yet: the host need not wait for the influences before it has something to do with
+/// them. `points`: mm. `name` of the points is for the DataError when no node is selected.
+EmbeddedGraph embed_graph(Device& device, const NodeSelection& selection, const PointSet& points,
+                          int nearest_nodes, const std::string& name);
+
+/// Waits for the influences and finds the edges. Adds to `times` what the host spent on "edges".
+void connect(EmbeddedGraph& graph, StageTimes& times);
 
 }  // namespace pliant

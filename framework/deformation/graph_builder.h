@@ -3,8 +3,7 @@
 #include <memory>
 
 #include "framework/deformation/node_selection.h"
-#include "framework/geometry/camera.h"
-#include "framework/geometry/surface.h"
+#include "framework/geometry/pixel_index.h"
 
 namespace pliant {
 
@@ -13,9 +12,8 @@ class GraphBuilder {
  public:
   static constexpr const char* kind = "graph";
   virtual ~GraphBuilder() = default;
-  /// `source`: pixels are those of the camera's image. Both must outlive what is returned.
-  virtual std::unique_ptr<NodeSelection> select_nodes(Device& device, const Surface& source,
-                                                      const Camera& camera) const = 0;
+  /// What is returned keeps nothing of `source`.
+  virtual std::unique_ptr<NodeSelection> select_nodes(Device& device, const SurfaceView& source) const = 0;
 };
 
 }  // namespace pliant

@@ -9,18 +9,17 @@ namespace {
 
 using Affine = Eigen::Matrix<float, 3, 4>;  // columns of R - I, then t
 
-/// The blended deformation [Eq. 4.1] about one point of the surface, as an affine form centred there;
+/// The blended deformation [Eq. 4.1] about a point (mm) of the surface, as an affine form centred there;
 /// `influences`: of points among which it is number `place`.
-Affine blend(const SurfaceDeformation& before, int point, const Influences& influences, std::size_t place,
-             const std::vector<Eigen::Vector3f>& points) {
+Affine blend(const SurfaceDeformation& before, const Eigen::Vector3f& point, const Influences& influences,
+             std::size_t place) {
   Affine blended = Affine::Zero();
   const auto k = static_cast<std::size_t>(influences.per_point);
   for (std::size_t slot = k * place; slot < k * (place + 1); ++slot) {
     const auto node = static_cast<std::size_t>(influences.nodes.host()[slot]);
     const float weight = influences.weights.host()[slot];
     const Eigen::Map<const Affine> form(before.affine.host().data() + affine_size * node);
-    const Eigen::Vector3f arm =
-        points[static_cast<std::size_t>(point)] - points[static_cast<std::size_t>(before.nodes[node])];
+    const Eigen::Vector3f arm = point - before.graph.positions[node];
     blended += weight * form;
     blended.col(3) += weight * (form.leftCols<3>() * arm);
   }
@@ -29,18 +28,18 @@ Affine blend(const SurfaceDeformation& before, int point, const Influences& infl
 
 }  // namespace
 
-Array<float> carry_over(Device& device, const SurfaceDeformation& before, const std::vector<int>& nodes,
-                        const std::vector<Eigen::Vector3f>& points) {
-  const Influences influences = pick_influences(device, before.influences, Array<int>(nodes));
-  std::vector<float> affine(affine_size * nodes.size());
-  for (std::size_t j = 0; j < nodes.size(); ++j) {
+Array<float> carry_over(Device& device, const SurfaceDeformation& before, const EmbeddedGraph& next) {
+  const std::vector<int>& nodes = before.graph.nodes;
+  const Influences influences = pick_influences(device, before.graph.influences, Array<int>(next.nodes));
+  std::vector<float> affine(affine_size * next.nodes.size());
+  for (std::size_t j = 0; j < next.nodes.size(); ++j) {
     Eigen::Map<Affine> form(affine.data() + affine_size * j);
-    const auto old = std::lower_bound(before.nodes.begin(), before.nodes.end(), nodes[j]);
-    if (old != before.nodes.end() && *old == nodes[j])
+    const auto old = std::lower_bound(nodes.begin(), nodes.end(), next.nodes[j]);
+    if (old != nodes.end() && *old == next.nodes[j])
       form = Eigen::Map<const Affine>(before.affine.host().data() +
-                                      affine_size * static_cast<std::size_t>(old - before.nodes.begin()));
+                                      affine_size * static_cast<std::size_t>(old - nodes.begin()));
     else
-      form = blend(before, nodes[j], influences, j, points);
+      form = blend(before, next.positions[j], influences, j);
   }
   return Array<float>(std::move(affine));
 }

@@ -1,24 +1,19 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
-
-#include "framework/deformation/skinning.h"
+#include "framework/deformation/embedded_graph.h"
 #include "framework/device/array.h"
 
 namespace pliant {
 
 /// A deformation of a surface by a graph whose nodes are points of that surface.
 struct SurfaceDeformation {
-  const std::vector<int>& nodes;  ///< indices of points
-  const Influences& influences;   ///< of every point of the surface
-  const Array<float>& affine;     ///< affine_size numbers a node (see warp.h)
+  const EmbeddedGraph& graph;
+  const Array<float>& affine;  ///< affine_size numbers a node (see warp.h)
 };
 
 /// Affine forms with which another graph of the same surface starts where `before` ended: a node that was
 /// there keeps its transform; one that is new moves as the surface there was moved, by the blend of the
-/// transforms around it (its quadtree parent's the nearest). `points`: the surface at rest, mm.
-Array<float> carry_over(Device& device, const SurfaceDeformation& before, const std::vector<int>& nodes,
-                        const std::vector<Eigen::Vector3f>& points);
+/// transforms around it (its quadtree parent's the nearest).
+Array<float> carry_over(Device& device, const SurfaceDeformation& before, const EmbeddedGraph& next);
 
 }  // namespace pliant

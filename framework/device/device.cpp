@@ -12,10 +12,6 @@
 namespace pliant {
 namespace {
 
-constexpr std::size_t most_kept = 256;
-
-bool is_unused(const cl::Buffer& buffer) { return buffer.getInfo<CL_MEM_REFERENCE_COUNT>() == 1; }
-
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
@@ -118,9 +114,15 @@ Device::Device(const std::string& selection, const DeviceOptions& options)
   try {
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
+    pool_ = std::make_unique<BufferPool>(context_);
   } catch (const cl::Error& error) {
     fail("opening device " + info_.name, error);
   }
+}
+
+/// Memory that the queue still reads from must not go before it is through.
+Device::~Device() {
+  if (queue_() != nullptr) clFinish(queue_());
 }
 
 void Device::check_work_group() const {
@@ -188,44 +190,35 @@ void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::si
 }
 
 cl::Buffer Device::allocate(std::size_t bytes) const {
-  // OpenCL has no empty buffers; one byte keeps empty arrays usable as kernel arguments.
-  const std::size_t step = std::max<std::size_t>(std::bit_floor(bytes) / 8, 1);
-  const std::size_t shared = (std::max<std::size_t>(bytes, 1) + step - 1) / step * step;  // by close sizes
-  const std::size_t size = shared <= info_.most_bytes ? shared : bytes;
-  // The queue is in order: what still uses a dropped buffer comes before what its next owner enqueues.
-  for (auto [entry, end] = buffers_.equal_range(size); entry != end; ++entry)
-    if (is_unused(entry->second)) return entry->second;
-  if (buffers_.size() >= most_kept) drop_unused_buffers();
-  return buffers_.emplace(size, make_buffer(size))->second;
-}
-
-/// With `data`, a copy of it: OpenCL copies at once and keeps no pointer.
-cl::Buffer Device::make_buffer(std::size_t bytes, void* data) const {
   // Asked first, because some drivers give out memory that is not there.
   if (bytes > info_.most_bytes)
     throw DeviceError(
         fmt::format("a buffer of {} bytes is too large for {}: one may have {}, all together {}", bytes,
                     info_.name, info_.most_bytes, info_.memory_bytes));
-  const cl_mem_flags flags = CL_MEM_READ_WRITE | (data != nullptr ? CL_MEM_COPY_HOST_PTR : 0);
   try {
-    return cl::Buffer(context_, flags, bytes, data);
+    return pool_->take(bytes, info_.most_bytes);
   } catch (const cl::Error&) {
-    drop_unused_buffers();
+    pool_->drop_unused();
   }
   try {
-    return cl::Buffer(context_, flags, bytes, data);
+    return pool_->take(bytes, info_.most_bytes);
   } catch (const cl::Error& error) {
     fail(fmt::format("allocating {} bytes on {}, of {} in all", bytes, info_.name, info_.memory_bytes),
          error);
   }
 }
 
-void Device::drop_unused_buffers() const {
-  std::erase_if(buffers_, [](const auto& entry) { return is_unused(entry.second); });
-}
-
 cl::Buffer Device::upload(const void* data, std::size_t bytes) const {
-  return bytes == 0 ? allocate(0) : make_buffer(bytes, const_cast<void*>(data));
+  cl::Buffer made = allocate(bytes);
+  if (bytes == 0) return made;
+  ++counts_.uploads;
+  counts_.uploaded_bytes += bytes;
+  try {
+    pool_->send(queue_, made, data, bytes);
+  } catch (const cl::Error& error) {
+    fail(fmt::format("writing {} bytes", bytes), error);
+  }
+  return made;
 }
 
 cl::Buffer Device::copy(const cl::Buffer& from, std::size_t bytes) const {
@@ -241,6 +234,8 @@ cl::Buffer Device::copy(const cl::Buffer& from, std::size_t bytes) const {
 
 void Device::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const {
   if (bytes == 0) return;
+  ++counts_.uploads;
+  counts_.uploaded_bytes += bytes;
   try {
     queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data);
   } catch (const cl::Error& error) {
@@ -250,10 +245,32 @@ void Device::write(const cl::Buffer& buffer, const void* data, std::size_t bytes
 
 void Device::read(const cl::Buffer& buffer, void* data, std::size_t bytes) const {
   if (bytes == 0) return;
+  ++counts_.reads;
+  counts_.read_bytes += bytes;
   try {
     queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data);
   } catch (const cl::Error& error) {
     fail(fmt::format("reading {} bytes", bytes), error);
+  }
+}
+
+cl::Event Device::read_later(const cl::Buffer& buffer, void* data, std::size_t bytes) const {
+  ++counts_.reads;
+  counts_.read_bytes += bytes;
+  cl::Event event;
+  try {
+    queue_.enqueueReadBuffer(buffer, CL_FALSE, 0, bytes, data, nullptr, &event);
+  } catch (const cl::Error& error) {
+    fail(fmt::format("reading {} bytes", bytes), error);
+  }
+  return event;
+}
+
+void Device::wait(const cl::Event& event) const {
+  try {
+    event.wait();
+  } catch (const cl::Error& error) {
+    fail("waiting for a copy to the host", error);
   }
 }
 
@@ -272,6 +289,12 @@ void Device::finish() const {
   } catch (const cl::Error& error) {
     fail("waiting for the device", error);
   }
+}
+
+DeviceCounts Device::counts() const {
+  DeviceCounts counts = counts_;
+  counts.allocations = pool_->allocations();
+  return counts;
 }
 
 StageTimes Device::take_stage_times() {

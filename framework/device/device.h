@@ -1,13 +1,10 @@
 #pragma once
 
-#define CL_HPP_ENABLE_EXCEPTIONS
-#define CL_HPP_TARGET_OPENCL_VERSION 120
-#define CL_HPP_MINIMUM_OPENCL_VERSION 120
-#include <CL/opencl.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +14,7 @@
 
 #include "framework/core/log.h"
 #include "framework/core/stopwatch.h"
+#include "framework/device/buffer_pool.h"
 
 namespace pliant {
 
@@ -40,6 +38,15 @@ struct DeviceOptions {
   std::string build_options;           ///< of every program, e.g. "-cl-opt-disable"
 };
 
+/// What a device was asked for since it was opened.
+struct DeviceCounts {
+  std::uint64_t allocations = 0;  ///< of memory on the device, and on the host for what is on its way there
+  std::uint64_t uploads = 0;      ///< copies from the host to the device
+  std::uint64_t uploaded_bytes = 0;
+  std::uint64_t reads = 0;  ///< copies from the device to the host
+  std::uint64_t read_bytes = 0;
+};
+
 /// An OpenCL device with one in-order queue. Kernels are enqueued and never waited for; only reading
 /// results back waits. Not thread-safe. Failures raise DeviceError.
 class Device {
@@ -47,6 +54,7 @@ class Device {
   /// Opens a device: "any" (a CPU first, because that is where results are reproducible everywhere),
   /// "cpu", "gpu", or a part of the device's or platform's name (case ignored).
   explicit Device(const std::string& selection = "any", const DeviceOptions& options = {});
+  ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
@@ -90,11 +98,10 @@ class Device {
   }
 
   /// A buffer of at least so many uninitialised bytes; DeviceError names the size, and what the device has,
-  /// when it does not fit.
-  /// Buffers that all others have dropped are given out again: fresh pages cost more than most kernels.
+  /// when it does not fit. Buffers that all others have dropped are given out again.
   cl::Buffer allocate(std::size_t bytes) const;
 
-  /// A buffer made of host values; unlike write() this does not wait for the device.
+  /// A buffer with a copy of host values, which may change at once; only enqueues.
   cl::Buffer upload(const void* data, std::size_t bytes) const;
   template <class T>
   cl::Buffer upload(const std::vector<T>& values) const {
@@ -108,8 +115,13 @@ class Device {
   void write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const;
   /// Waits for everything enqueued so far.
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
+  /// Only enqueues: `data` must stay where it is until wait() for what is returned.
+  cl::Event read_later(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
+  void wait(const cl::Event& event) const;
   void fill_zero(const cl::Buffer& buffer, std::size_t bytes) const;
   void finish() const;
+
+  DeviceCounts counts() const;
 
   /// While true (default: false) every kernel's time is recorded under its stage's name.
   void measure_stages(bool on) { measuring_ = on; }
@@ -141,8 +153,6 @@ class Device {
     std::unordered_map<std::string, cl::Kernel> kernels;
   };
   void check_work_group() const;
-  cl::Buffer make_buffer(std::size_t bytes, void* data = nullptr) const;
-  void drop_unused_buffers() const;
   Program& program_of(std::string_view source, const std::string& options);
   cl::Program build(std::string_view source, const std::string& options);
 
@@ -150,7 +160,8 @@ class Device {
   ProgressSink tell_of_building_;
   std::deque<Program> programs_;  // few: told apart by the length of their sources sooner than by any hash
   int programs_built_ = 0;
-  mutable std::multimap<std::size_t, cl::Buffer> buffers_;  // by size: what allocate() gave out
+  std::unique_ptr<BufferPool> pool_;
+  mutable DeviceCounts counts_;
   bool measuring_ = false;
   struct Record {
     std::string stage;

@@ -48,13 +48,15 @@ double percentile_95(std::vector<float> values) {
 
 }  // namespace
 
-Evaluation::Evaluation(const FramePair& pair, const Surface& source, SurfaceImage target)
+Evaluation::Evaluation(const FramePair& pair, const std::optional<PairTruth>& truth, const Surface& source,
+                       SurfaceImage target)
     : camera_(pair.camera), target_(std::move(target)), nearest_(target_.points, camera_) {
   check(pair);
   if (nearest_.empty()) throw DataError(pair.name + ": the target has no point to measure against");
-  if (pair.scene_flow.empty()) return;
+  if (!truth) return;
+  check(*truth, pair);
   for (std::size_t i = 0; i < source.size(); ++i) {
-    const Eigen::Vector3f flow = pair.scene_flow(source.pixels[i].x(), source.pixels[i].y());
+    const Eigen::Vector3f flow = truth->scene_flow(source.pixels[i].x(), source.pixels[i].y());
     truth_.push_back(source.points[i] + flow);  // NaN where the flow is
     moving_.push_back(flow.norm() > moving_distance);
     seen_.push_back(is_seen(truth_.back()));

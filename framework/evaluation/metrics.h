@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/evaluation/nearest_points.h"
+#include "framework/evaluation/truth.h"
 #include "framework/geometry/frame.h"
 #include "framework/geometry/surface.h"
 
@@ -39,8 +40,9 @@ struct Metrics {
 class Evaluation {
  public:
   /// `source`: the source as given (its pixels look up the truth); `target`: the target's valid points.
-  /// Throws DataError when the target has none, and as `check` of a pair does.
-  Evaluation(const FramePair& pair, const Surface& source, SurfaceImage target);
+  /// Throws DataError when the target has none, and as `check` of a pair and of its truth do.
+  Evaluation(const FramePair& pair, const std::optional<PairTruth>& truth, const Surface& source,
+             SurfaceImage target);
   Evaluation(const Evaluation&) = delete;
   Evaluation& operator=(const Evaluation&) = delete;
 

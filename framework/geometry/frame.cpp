@@ -2,50 +2,38 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <string>
-
 #include "framework/core/error.h"
 
 namespace pliant {
 namespace {
 
-void check_camera(const FramePair& pair) {
-  const Camera& camera = pair.camera;
-  if (!std::isfinite(camera.fx) || !std::isfinite(camera.fy) || camera.fx <= 0 || camera.fy <= 0)
-    throw DataError(
-        fmt::format("{}: the camera's focal lengths are {} and {} pixels; expected finite positive numbers",
-                    pair.name, camera.fx, camera.fy));
-  if (!std::isfinite(camera.cx) || !std::isfinite(camera.cy))
-    throw DataError(fmt::format("{}: the camera's principal point is ({}, {}); expected finite numbers",
-                                pair.name, camera.cx, camera.cy));
-}
-
 template <class T>
-void check_size(const FramePair& pair, const std::string& what, const Image<T>& image) {
-  if (image.width() == pair.camera.width && image.height() == pair.camera.height) return;
-  throw DataError(fmt::format("{}: {} is {} x {} pixels; expected the camera's {} x {}", pair.name, what,
-                              image.width(), image.height(), pair.camera.width, pair.camera.height));
-}
-
-void check_frame(const FramePair& pair, const std::string& whose, const RgbdFrame& frame) {
-  if (frame.depth.empty()) throw DataError(fmt::format("{}: {} depth image is empty", pair.name, whose));
-  check_size(pair, whose + " depth image", frame.depth);
-  if (!frame.color.empty()) check_size(pair, whose + " colour image", frame.color);
-  if (!frame.mask.empty()) check_size(pair, whose + " mask", frame.mask);
+void check_size(const Image<T>& image, const Camera& camera, const std::string& what, const char* whose) {
+  if (image.width() == camera.width && image.height() == camera.height) return;
+  throw DataError(fmt::format("{} is {} x {} pixels; expected {} {} x {}", what, image.width(),
+                              image.height(), whose, camera.width, camera.height));
 }
 
 }  // namespace
 
+void check(const Frame& frame, const Rig& rig, const std::string& whose) {
+  if (frame.depth.empty()) throw DataError(whose + " depth image is empty");
+  check_size(frame.depth, rig.depth, whose + " depth image", "the camera's");
+  if (!frame.mask.empty()) check_size(frame.mask, rig.depth, whose + " mask", "the camera's");
+  if (!frame.color.empty())
+    check_size(frame.color, rig.color.value_or(rig.depth), whose + " colour image",
+               rig.color ? "the colour camera's" : "the camera's");
+}
+
 void check_source(const FramePair& pair) {
-  check_camera(pair);
-  check_frame(pair, "the source's", pair.source);
-  if (!pair.scene_flow.empty()) check_size(pair, "the scene flow", pair.scene_flow);
+  const Rig rig{pair.camera};
+  check(rig, pair.name);
+  check(pair.source, rig, pair.name + ": the source's");
 }
 
 void check(const FramePair& pair) {
   check_source(pair);
-  check_frame(pair, "the target's", pair.target);
+  check(pair.target, Rig{pair.camera}, pair.name + ": the target's");
 }
 
 }  // namespace pliant

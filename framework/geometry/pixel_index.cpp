@@ -9,15 +9,21 @@ namespace pliant {
 namespace {
 
 int seen_at(const PixelIndex& index, int u, int v) {
-  const int column = u - index.left;
-  const int row = v - index.top;
-  return index.points.contains(column, row) ? index.points(column, row) : -1;
+  return index.window.contains(u, v) ? index.points.host()[index.window.offset(u, v)] : -1;
 }
 
 }  // namespace
 
+PixelIndex::PixelIndex(const PixelWindow& window, const std::vector<int>& pixels)
+    : window(window), count(pixels.size()) {
+  std::vector<int> seen(window.size(), -1);
+  int point = 0;
+  for (const int pixel : pixels) seen[static_cast<std::size_t>(pixel)] = point++;
+  points = Array<int>(std::move(seen));
+}
+
 PixelIndex index_pixels(const Surface& surface) {
-  if (surface.size() == 0) return {};
+  if (surface.size() == 0) return {{}, {}};
   Eigen::Vector2i lowest = surface.pixels.front();
   Eigen::Vector2i highest = lowest;
   for (const Eigen::Vector2i& pixel : surface.pixels) {
@@ -25,12 +31,12 @@ PixelIndex index_pixels(const Surface& surface) {
     highest = highest.cwiseMax(pixel);
   }
   const Eigen::Vector2i size = highest - lowest + Eigen::Vector2i::Ones();
-  PixelIndex index{lowest.x(), lowest.y(), Image<int>(size.x(), size.y(), -1)};
-  for (std::size_t i = 0; i < surface.size(); ++i) {
-    const Eigen::Vector2i place = surface.pixels[i] - lowest;
-    index.points(place.x(), place.y()) = static_cast<int>(i);
-  }
-  return index;
+  const PixelWindow window{lowest.x(), lowest.y(), size.x(), size.y()};
+  std::vector<int> pixels;
+  pixels.reserve(surface.size());
+  for (const Eigen::Vector2i& pixel : surface.pixels)
+    pixels.push_back(static_cast<int>(window.offset(pixel.x(), pixel.y())));
+  return {window, pixels};
 }
 
 int point_at(const PixelIndex& index, const Eigen::Vector2i& pixel, const PixelBox& box) {
@@ -59,8 +65,9 @@ int point_at(const PixelIndex& index, const Eigen::Vector2i& pixel, const PixelB
 std::vector<int> points_on_grid(const PixelIndex& index, int step) {
   std::vector<int> found;
   const int centre = step / 2;
-  for (int top = index.top / step * step; top < index.top + index.points.height(); top += step) {
-    for (int left = index.left / step * step; left < index.left + index.points.width(); left += step) {
+  const PixelWindow& window = index.window;
+  for (int top = window.top / step * step; top < window.top + window.height; top += step) {
+    for (int left = window.left / step * step; left < window.left + window.width; left += step) {
       const PixelBox mask{left, top, left + step, top + step};
       const int point = point_at(index, {left + centre, top + centre}, mask);
       if (point >= 0) found.push_back(point);
@@ -70,13 +77,8 @@ std::vector<int> points_on_grid(const PixelIndex& index, int step) {
   return found;
 }
 
-std::vector<int> points_on_grid(const Surface& surface, int step) {
-  return points_on_grid(index_pixels(surface), step);
-}
-
-std::vector<int> about_as_many_points_on_grid(const Surface& surface, int wished) {
-  const PixelIndex index = index_pixels(surface);
-  const double guess = std::sqrt(static_cast<double>(surface.size()) / wished);
+std::vector<int> about_as_many_points_on_grid(const PixelIndex& index, int wished) {
+  const double guess = std::sqrt(static_cast<double>(index.count) / wished);
   constexpr int near_enough = 20;  // by one in so many: the next step gives a tenth more at least
   std::vector<int> best;
   const auto miss = [&](const std::vector<int>& points) {

@@ -20,7 +20,7 @@ void check_same_size(const Overlay& overlay, int width, int height, const char* 
 
 bool is_point(const Eigen::Vector3f& point) { return point.z() > 0; }
 
-PointImage make_points(const RgbdFrame& frame, const Camera& camera) {
+PointImage make_points(const Frame& frame, const Camera& camera) {
   PointImage points(frame.depth.width(), frame.depth.height(), Eigen::Vector3f::Zero());
   for (int v = 0; v < points.height(); ++v) {
     for (int u = 0; u < points.width(); ++u) {
@@ -96,7 +96,7 @@ Eigen::Vector3d find_normal(const PointImage& points, int u, int v, int radius, 
 
 }  // namespace
 
-SurfaceImage make_surface_image(const RgbdFrame& frame, const Camera& camera, int radius, float depth_step) {
+SurfaceImage make_surface_image(const Frame& frame, const Camera& camera, int radius, float depth_step) {
   check_same_size(frame.mask, frame.depth.width(), frame.depth.height(), "mask");
   SurfaceImage map{make_points(frame, camera), {}};
   map.normals = PointImage(map.points.width(), map.points.height(), Eigen::Vector3f::Zero());

@@ -46,8 +46,8 @@ inline constexpr float edge_on = 0.01F;
 /// `is_depth` holds count, and only those inside the mask where there is one. A normal comes from the plane
 /// fitted to the valid points of the (2 radius + 1)^2 window whose depth differs from the centre's by less
 /// than `depth_step` mm [thesis 3.1]; at least three neighbours are needed.
-SurfaceImage make_surface_image(const RgbdFrame& frame, const Camera& camera,
-                                int radius = default_normal_radius, float depth_step = default_depth_step);
+SurfaceImage make_surface_image(const Frame& frame, const Camera& camera, int radius = default_normal_radius,
+                                float depth_step = default_depth_step);
 
 /// The valid points of a map as a list, with colours from `color` when that is not empty.
 Surface make_surface(const SurfaceImage& map, const ColorImage& color);

@@ -1,5 +1,6 @@
-// Maps of points, one a pixel of a camera (fx, fy, cx, cy), (0, 0, 0) where there is none. Compiled behind
-// lanes.cl.
+// Maps of points, one a pixel of a window of a camera's image, (0, 0, 0) where there is none. `camera`: fx, fy,
+// cx, cy. `frame`: left, top, width and height of the window, then width and height of the image. Compiled
+// behind lanes.cl.
 
 #define FARTHEST 1e18f  // farthest_depth of image.h
 
@@ -22,7 +23,9 @@
     STORE(v.z, z_address);                               \
   } while (0)
 
-typedef Truth Pixels;  // row-major offsets, -1 for none
+typedef Truth Pixels;  // offsets in the window; below 0: no pixel, or one outside of the window
+
+#define NOT_IN_WINDOW ((Pixels)-2)  // a pixel of the image that the window leaves out
 
 Vector minus(Vector a, Vector b) {
   const Vector difference = {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -46,13 +49,17 @@ float sum_of(Lanes v) {
 }
 
 // The pixels that points project to; none outside of the image.
-Pixels project(Vector p, float4 camera, int2 size) {
+Pixels project(Vector p, float4 camera, int8 frame) {
   const Lanes scale = 1.0f / p.z;
   const Lanes u = floor(camera.x * p.x * scale + (camera.z + 0.5f));
   const Lanes v = floor(camera.y * p.y * scale + (camera.w + 0.5f));
-  const Truth inside =
-      p.z > (Lanes)0 && u >= (Lanes)0 && v >= (Lanes)0 && u < (Lanes)size.x && v < (Lanes)size.y;
-  return select(NONE, TO_INT(WHERE(inside, v)) * size.x + TO_INT(WHERE(inside, u)), inside);
+  const Truth in_image =
+      p.z > (Lanes)0 && u >= (Lanes)0 && v >= (Lanes)0 && u < (Lanes)frame.s4 && v < (Lanes)frame.s5;
+  const Lanes column = u - (Lanes)frame.s0, row = v - (Lanes)frame.s1;
+  const Truth in_window = in_image && column >= (Lanes)0 && row >= (Lanes)0 && column < (Lanes)frame.s2 &&
+                          row < (Lanes)frame.s3;
+  return select(select(NONE, NOT_IN_WINDOW, in_image),
+                TO_INT(WHERE(in_window, row)) * frame.s2 + TO_INT(WHERE(in_window, column)), in_window);
 }
 
 // The vectors of a map at some pixels; none, and those that are not finite, count as (0, 0, 0).

@@ -18,7 +18,7 @@ class NoFilter : public DepthFilter {
   }
 };
 
-constexpr int sampled_rows = 4;      // every so many rows: noise is the same in those between
+constexpr int sampled_rows = 4;      // every so many rows of the image: noise is the same in those between
 constexpr double least_sigma = 0.4;  // pixels: with less the neighbours weigh a twentieth of the pixel itself
 constexpr double greatest_sigma = 6;  // pixels: what would need more is smoothed beyond recognition
 
@@ -26,9 +26,10 @@ constexpr double greatest_sigma = 6;  // pixels: what would need more is smoothe
 template <class Take>
 void for_each_triple(const DepthMap& map, Take take) {
   const auto& depth = map.depth.host();
-  for (int v = 0; v < map.height; v += sampled_rows) {
+  const int skipped = map.window.top % sampled_rows;
+  for (int v = skipped > 0 ? sampled_rows - skipped : 0; v < map.window.height; v += sampled_rows) {
     const float* row = depth.data() + map.offset(0, v);
-    for (int u = 1; u + 1 < map.width; ++u)
+    for (int u = 1; u + 1 < map.window.width; ++u)
       if (std::max({row[u - 1], row[u], row[u + 1]}) < DepthMap::no_depth)
         take(row[u - 1], row[u], row[u + 1]);
   }
@@ -74,12 +75,13 @@ std::optional<DepthMap> BilateralFilter::filter(Device& device, const DepthMap& 
     for (int du = -radius_; du <= radius_; ++du) steps.push_back(exponent(std::hypot(du, dv), sigma_space_));
   const Array<float> window(std::move(steps));
 
-  DepthMap filtered(map.width, map.height);
+  DepthMap filtered(map.window);
   auto kernel = depth_kernel(device, "bilateral");
   const auto width = static_cast<std::size_t>(device.width());
   device.run("filter", kernel, map.depth.size() / width, 64, map.depth.device(device),
-             static_cast<cl_int>(map.stride), cl_int2{{map.width, map.height}}, static_cast<cl_int>(radius_),
-             window.device(device), exponent(1, sigma_depth_), filtered.depth.write_device(device));
+             static_cast<cl_int>(map.stride), cl_int2{{map.window.width, map.window.height}},
+             static_cast<cl_int>(radius_), window.device(device), exponent(1, sigma_depth_),
+             filtered.depth.write_device(device));
   return filtered;
 }
 

@@ -149,8 +149,9 @@ Truth is_undetermined(Vector normal, Vector ray, Lanes z) {
   return HAS_DEPTH(z) && fabs(inner(normal, ray)) < (Lanes)EDGE_ON;
 }
 
-// Points and unit normals, x y z a pixel, without the halo. camera: fx, fy, cx, cy.
-kernel void surface(global const float* depth, int stride, int2 size, float4 camera, int radius,
+// Points and unit normals, x y z a pixel, without the halo. camera: fx, fy, cx, cy; corner: the pixel of its
+// image at which the map begins.
+kernel void surface(global const float* depth, int stride, int2 size, int2 corner, float4 camera, int radius,
                     float depth_step, global float* points, global float* normals) {
   const int vectors = (size.x + WIDTH - 1) / WIDTH;
   const int v = get_global_id(0) / vectors;
@@ -161,8 +162,8 @@ kernel void surface(global const float* depth, int stride, int2 size, float4 cam
   Vector point = {0, 0, 0}, normal = {0, 0, 0};
   if (ANY_DEPTH(z)) {
     const float2 pixel = 1.0f / camera.xy;
-    const Lanes ray_x = ((Lanes)(u - camera.z) + LANE_OFFSETS) * pixel.x;
-    const Lanes ray_y = (v - camera.w) * pixel.y;
+    const Lanes ray_x = ((Lanes)(corner.x + u - camera.z) + LANE_OFFSETS) * pixel.x;
+    const Lanes ray_y = (corner.y + v - camera.w) * pixel.y;
     const Vector ray = {ray_x, ray_y, 1};
     Vector fitted = window_normal(centre, stride, radius, depth_step, z, ray_x, ray_y, pixel);
     Truth is_open = is_undetermined(fitted, ray, z);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "framework/device/lanes.h"
@@ -12,6 +13,14 @@ namespace pliant {
 namespace {
 
 constexpr std::size_t group = 64;
+
+/// Throws std::invalid_argument when mask and depth differ in size.
+const Frame& checked(const Frame& frame) {
+  const bool fits = frame.mask.empty() || (frame.mask.width() == frame.depth.width() &&
+                                           frame.mask.height() == frame.depth.height());
+  if (!fits) throw std::invalid_argument("mask and depth differ in size");
+  return frame;
+}
 
 int round_up(int value, int step) { return (value + step - 1) / step * step; }
 
@@ -26,46 +35,75 @@ cl::Kernel depth_kernel(Device& device, const std::string& name) {
   return device.kernel(source, name, options);
 }
 
-DepthMap::DepthMap(int width, int height)
-    : width(width),
-      height(height),
-      stride(round_up(width, halo) + 2 * halo),
+namespace {
+
+/// The smallest window that holds all pixels with depth; empty when there is none.
+PixelWindow window_of_depth(const Frame& frame) {
+  const int width = frame.depth.width();
+  const int height = frame.depth.height();
+  int left = width, right = 0, top = height, bottom = 0;
+  const auto has_depth = [&](const float* row, const std::uint8_t* mask, int u) {
+    return is_depth(row[u]) && (mask == nullptr || mask[u] != 0);
+  };
+  for (int v = 0; v < height; ++v) {
+    const auto begin = static_cast<std::size_t>(v) * static_cast<std::size_t>(width);
+    const float* row = frame.depth.data() + begin;
+    const std::uint8_t* mask = frame.mask.empty() ? nullptr : frame.mask.data() + begin;
+    int first = 0;
+    while (first < width && !has_depth(row, mask, first)) ++first;
+    if (first == width) continue;
+    int last = width - 1;
+    while (last >= right && !has_depth(row, mask, last)) --last;
+    left = std::min(left, first);
+    right = std::max(right, last + 1);
+    top = std::min(top, v);
+    bottom = v + 1;
+  }
+  return right > 0 ? PixelWindow{left, top, right - left, bottom - top} : PixelWindow{};
+}
+
+}  // namespace
+
+DepthMap::DepthMap(const PixelWindow& window)
+    : window(window),
+      stride(round_up(window.width, halo) + 2 * halo),
       depth(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows())) {}
 
-DepthMap::DepthMap(const RgbdFrame& frame) : DepthMap(frame.depth.width(), frame.depth.height()) {
-  if (!frame.mask.empty() && (frame.mask.width() != width || frame.mask.height() != height))
-    throw std::invalid_argument("mask and depth differ in size");
+DepthMap::DepthMap(const Frame& frame) : DepthMap(window_of_depth(checked(frame))) {
   std::vector<float> values(depth.size(), no_depth);
-  for (int v = 0; v < height; ++v) {
-    float* row = values.data() + offset(0, v);
-    const float* given = frame.depth.data() + static_cast<std::size_t>(v) * width;
-    for (int u = 0; u < width; ++u) row[u] = is_depth(given[u]) ? given[u] : no_depth;
+  for (int row = 0; row < window.height; ++row) {
+    float* to = values.data() + offset(0, row);
+    const std::size_t begin =
+        static_cast<std::size_t>(window.top + row) * static_cast<std::size_t>(frame.depth.width()) +
+        static_cast<std::size_t>(window.left);
+    const float* given = frame.depth.data() + begin;
+    for (int u = 0; u < window.width; ++u) to[u] = is_depth(given[u]) ? given[u] : no_depth;
     if (frame.mask.empty()) continue;
-    const std::uint8_t* mask = frame.mask.data() + static_cast<std::size_t>(v) * width;
-    for (int u = 0; u < width; ++u) row[u] = mask[u] != 0 ? row[u] : no_depth;
+    const std::uint8_t* mask = frame.mask.data() + begin;
+    for (int u = 0; u < window.width; ++u) to[u] = mask[u] != 0 ? to[u] : no_depth;
   }
   depth = Array<float>(std::move(values));
 }
 
-DepthImage to_image(const DepthMap& map) {
-  DepthImage image(map.width, map.height);
-  for (int v = 0; v < map.height; ++v) {
-    for (int u = 0; u < map.width; ++u) {
-      const float depth = map.depth.host()[map.offset(u, v)];
-      if (depth < DepthMap::no_depth) image(u, v) = depth;
+DepthImage to_image(const DepthMap& map, const Camera& camera) {
+  DepthImage image(camera.width, camera.height);
+  for (int row = 0; row < map.window.height; ++row) {
+    for (int column = 0; column < map.window.width; ++column) {
+      const float depth = map.depth.host()[map.offset(column, row)];
+      if (depth < DepthMap::no_depth) image(map.window.left + column, map.window.top + row) = depth;
     }
   }
   return image;
 }
 
 std::vector<int> pixels_with_depth(const DepthMap& map) {
-  std::vector<int> pixels(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
+  std::vector<int> pixels(map.window.size());
   std::size_t count = 0;
-  for (int v = 0; v < map.height; ++v) {
+  for (int v = 0; v < map.window.height; ++v) {
     const float* row = map.depth.host().data() + map.offset(0, v);
-    for (int u = 0; u < map.width; ++u) {
+    for (int u = 0; u < map.window.width; ++u) {
       // Written always and kept only where there is depth: no branch to mispredict.
-      pixels[count] = v * map.width + u;
+      pixels[count] = v * map.window.width + u;
       count += row[u] < DepthMap::no_depth ? 1 : 0;
     }
   }
@@ -73,28 +111,34 @@ std::vector<int> pixels_with_depth(const DepthMap& map) {
   return pixels;
 }
 
-PointSet make_surface_map(Device& device, const DepthMap& map, const Camera& camera, int radius,
-                          float depth_step) {
-  const auto pixels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
-  PointSet surface{Array<float>(3 * pixels), Array<float>(3 * pixels)};
-  const int vectors = round_up(map.width, device.width()) / device.width();
-  const cl_float4 pinhole = {{static_cast<float>(camera.fx), static_cast<float>(camera.fy),
-                              static_cast<float>(camera.cx), static_cast<float>(camera.cy)}};
+SurfaceMap make_surface_map(Device& device, const DepthMap& map, const Camera& camera, int radius,
+                            float depth_step) {
+  const PixelWindow& window = map.window;
+  SurfaceMap surface(camera, window, {Array<float>(3 * window.size()), Array<float>(3 * window.size())});
+  const int vectors = round_up(window.width, device.width()) / device.width();
   auto kernel = depth_kernel(device, "surface");
-  device.run("surface", kernel, static_cast<std::size_t>(vectors) * static_cast<std::size_t>(map.height),
+  device.run("surface", kernel, static_cast<std::size_t>(vectors) * static_cast<std::size_t>(window.height),
              group, map.depth.device(device), static_cast<cl_int>(map.stride),
-             cl_int2{{map.width, map.height}}, pinhole, static_cast<cl_int>(radius), depth_step,
-             surface.points.write_device(device), surface.normals.write_device(device));
+             cl_int2{{window.width, window.height}}, cl_int2{{window.left, window.top}}, pinhole(camera),
+             static_cast<cl_int>(radius), depth_step, surface.map.points.write_device(device),
+             surface.map.normals.write_device(device));
   return surface;
 }
 
-SurfaceImage make_surface_image(Device& device, const RgbdFrame& frame, const Camera& camera) {
-  const PointSet map = make_surface_map(device, DepthMap(frame), camera);
+SurfaceImage make_surface_image(Device& device, const Frame& frame, const Camera& camera) {
+  const SurfaceMap map = make_surface_map(device, DepthMap(frame), camera);
   const Image<Eigen::Vector3f> none(frame.depth.width(), frame.depth.height(), Eigen::Vector3f::Zero());
   SurfaceImage image{none, none};
-  if (map.points.empty()) return image;
-  map.points.copy_to(image.points(0, 0).data());
-  map.normals.copy_to(image.normals(0, 0).data());
+  const auto points = unflatten(map.points());
+  const auto normals = unflatten(map.normals());
+  const PixelWindow& window = map.window;
+  for (int v = window.top; v < window.top + window.height; ++v) {
+    const std::size_t begin = window.offset(window.left, v);
+    std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(begin), window.width,
+                &image.points(window.left, v));
+    std::copy_n(normals.begin() + static_cast<std::ptrdiff_t>(begin), window.width,
+                &image.normals(window.left, v));
+  }
   return image;
 }
 

@@ -18,7 +18,7 @@ namespace {
 /// turned by 90 degrees and more at 0.66.
 constexpr double far_share = 0.5;
 
-bool has_point(const RgbdFrame& frame, int u, int v) {
+bool has_point(const Frame& frame, int u, int v) {
   return is_depth(frame.depth(u, v)) && (frame.mask.empty() || frame.mask(u, v) != 0);
 }
 

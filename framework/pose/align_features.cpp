@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <flann/algorithms/dist.h>
+#include <flann/algorithms/kdtree_single_index.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <flann/flann.hpp>
 #include <future>
 #include <memory>
 #include <opencv2/features2d.hpp>
@@ -137,7 +138,7 @@ cv::Mat to_grey(const ColorImage& color) {
 }
 
 /// Where features may lie: on the object and with depth to back-project them.
-cv::Mat usable_pixels(const RgbdFrame& frame) {
+cv::Mat usable_pixels(const Frame& frame) {
   cv::Mat usable(frame.depth.height(), frame.depth.width(), CV_8U);
   for (int v = 0; v < usable.rows; ++v) {
     for (int u = 0; u < usable.cols; ++u) {
@@ -171,7 +172,7 @@ cv::Mat scaled(const cv::Mat& image, double scale, int interpolation) {
 /// The depth of the plane through the depths around a place in the image, without what lies in front or
 /// behind: a single one carries all its noise, which is far greater than what a feature is astray in the
 /// image.
-double depth_around(const RgbdFrame& frame, const cv::Mat& usable, const cv::Point2d& at) {
+double depth_around(const Frame& frame, const cv::Mat& usable, const cv::Point2d& at) {
   constexpr int radius = 2;            // pixels
   constexpr double same_surface = 30;  // mm
   const cv::Point middle(cvRound(at.x), cvRound(at.y));
@@ -203,13 +204,13 @@ double depth_around(const RgbdFrame& frame, const cv::Mat& usable, const cv::Poi
 }
 
 /// An object that covers few pixels is not shrunk as much as asked for: it would have no features left.
-double scale_for(const RgbdFrame& source, double scale) {
+double scale_for(const Frame& source, double scale) {
   constexpr double fewest_pixels = 6000;
   const int pixels = cv::countNonZero(usable_pixels(source));
   return pixels > 0 ? std::clamp(std::sqrt(fewest_pixels / pixels), scale, 1.0) : scale;
 }
 
-Features find_features(const RgbdFrame& frame, const Camera& camera, double scale, const std::string& which) {
+Features find_features(const Frame& frame, const Camera& camera, double scale, const std::string& which) {
   if (frame.color.empty()) {
     throw DataError(fmt::format("{}: alignment `features` needs a colour image", which));
   }
@@ -245,7 +246,7 @@ flann::Matrix<float> rows_of(cv::Mat& descriptors) {
 PointMatches match(Features& source, Features& target, double ratio) {
   // The single tree searches exactly; FLANN's randomised trees are shuffled by std::random_device and
   // give other matches in every run.
-  flann::Index<flann::L2<float>> index(rows_of(target.descriptors), flann::KDTreeSingleIndexParams());
+  flann::KDTreeSingleIndex<flann::L2<float>> index(rows_of(target.descriptors));
   index.buildIndex();
   std::vector<std::vector<int>> indices;
   std::vector<std::vector<float>> squared;

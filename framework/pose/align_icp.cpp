@@ -12,13 +12,14 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Row-major offsets of the pixels of every fourth row and column that have a point.
-Array<int> pixels_on_grid(const RgbdFrame& frame) {
+/// The pixels of every fourth row and column that have a point, as offsets in a window that holds all of
+/// them.
+Array<int> pixels_on_grid(const Frame& frame, const PixelWindow& window) {
   std::vector<int> pixels;
   for (int v = 2; v < frame.depth.height(); v += 4)
     for (int u = 2; u < frame.depth.width(); u += 4)
       if (is_depth(frame.depth(u, v)) && (frame.mask.empty() || frame.mask(u, v) != 0))
-        pixels.push_back(v * frame.depth.width() + u);
+        pixels.push_back(static_cast<int>(window.offset(u, v)));
   return Array<int>(std::move(pixels));
 }
 
@@ -49,11 +50,9 @@ class IcpAlignment : public Alignment {
 
 RigidIcpResult run_icp(const AlignmentInput& input, const RigidIcpOptions& options,
                        const Eigen::Isometry3d& start) {
-  const Camera& camera = input.pair.camera;
-  const Array<int> target_pixels = pixels_on_grid(input.pair.target);
-  const SeenSurface source{camera, input.source.points, input.source.normals, input.source_pixels};
-  const SeenSurface target{camera, input.target.points, input.target.normals, target_pixels};
-  return RigidIcp(input.device, options).align(source, target, start);
+  const Array<int> target_pixels = pixels_on_grid(input.pair.target, input.target.window);
+  return RigidIcp(input.device, options)
+      .align({input.source, input.source_pixels}, {input.target, target_pixels}, start);
 }
 
 bool is_clearly_nearer(const RigidIcpResult& result) {

@@ -8,18 +8,17 @@
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
 #include "framework/geometry/point_matches.h"
-#include "framework/geometry/point_set.h"
 #include "framework/geometry/surface_map.h"
 
 namespace pliant {
 
-/// What an alignment may look at; all of it stays as it is during the call. Maps have one point a pixel of
-/// the pair's camera, (0, 0, 0) where there is none, and are filtered by the method's filter.
+/// What an alignment may look at; all of it stays as it is during the call. Maps are
+/// filtered by the method's filter.
 struct AlignmentInput {
   const FramePair& pair;
   Device& device;
-  const PointSet& source;           ///< the source's map
-  const Array<int>& source_pixels;  ///< row-major offsets of the pixels that have a point of the source
+  const SurfaceMap& source;
+  const Array<int>& source_pixels;  ///< offsets in its window of the pixels that have a point
   const SurfaceMap& target;
   std::uint64_t seed = 0;
   /// Whether an energy will use AlignmentResult::features, where the method finds any.

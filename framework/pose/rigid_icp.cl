@@ -156,7 +156,7 @@ static inline float farthest_match(global const float4* extents, float max_dista
 // whatever became of the pose. trim, where it is not 0: once the pose has matches of this level, planes may
 // lie that many times their spread away.
 kernel void accumulate(int count, int level, int padded, global const float* samples,
-                       global const float* poses, global const float4* extents, float4 camera, int2 size,
+                       global const float* poses, global const float4* extents, float4 camera, int8 frame,
                        global const float* points, global const float* normals, float max_distance,
                        float coarse, float share, float trim, float least_cosine, global float* partials) {
   const int chunks = (padded + CHUNK - 1) / CHUNK;
@@ -177,7 +177,7 @@ kernel void accumulate(int count, int level, int padded, global const float* sam
     const Vector p = load(samples, padded, i);
     const Vector arm = arm_of(&motion, p);
     const Vector moved = placed(&motion, arm);
-    const Pixels pixels = project(moved, camera, size);
+    const Pixels pixels = project(moved, camera, frame);
     const Vector q = gather(pixels, points);
     const Vector n = gather(pixels, normals);
     const Vector own = turned(&motion, load(samples + 3 * padded, padded, i));
@@ -310,8 +310,8 @@ kernel void take_step(int count, int level, int padded, global const float* part
 // extents. What faces away from the camera is hidden, what leaves its view is not known: both do not count.
 kernel void judge(int count, int padded_source, global const float* source, int padded_target,
                   global const float* target, global const float* poses, global const float4* extents,
-                  float4 camera_source, int2 size_source, global const float* source_points,
-                  float4 camera_target, int2 size_target, global const float* target_points, float cut,
+                  float4 camera_source, int8 frame_source, global const float* source_points,
+                  float4 camera_target, int8 frame_target, global const float* target_points, float cut,
                   global float2* partials) {
   const int source_chunks = (padded_source + CHUNK - 1) / CHUNK;
   const int chunks = source_chunks + (padded_target + CHUNK - 1) / CHUNK;
@@ -322,7 +322,7 @@ kernel void judge(int count, int padded_source, global const float* source, int 
   global const float* points = is_back ? source_points : target_points;
   const int padded = is_back ? padded_target : padded_source;
   const float4 camera = is_back ? camera_source : camera_target;
-  const int2 size = is_back ? size_source : size_target;
+  const int8 frame = is_back ? frame_source : frame_target;
   Motion motion;
   if (is_back)
     backward(poses + POSE_SIZE * which, (global const float*)extents, &motion);
@@ -335,10 +335,10 @@ kernel void judge(int count, int padded_source, global const float* source, int 
     const Vector p = load(samples, padded, i);
     const Vector moved = placed(&motion, arm_of(&motion, p));
     const Vector normal = turned(&motion, load(samples + 3 * padded, padded, i));
-    const Pixels pixels = project(moved, camera, size);
+    const Pixels pixels = project(moved, camera, frame);
     const Vector q = gather(pixels, points);
     const Vector offset = minus(moved, q);
-    const Truth counts = pixels >= (Pixels)0 && p.z > (Lanes)0 && inner(normal, moved) <= (Lanes)0;
+    const Truth counts = pixels != NONE && p.z > (Lanes)0 && inner(normal, moved) <= (Lanes)0;
     const Lanes distance = fmin(sqrt(inner(offset, offset)), farthest);
     sum += WHERE(counts, select(farthest, distance, q.z > (Lanes)0));
     known += WHERE(counts, (Lanes)1);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <optional>
 
-#include "framework/geometry/surface_map.h"
 #include "framework/pose/rigid_equation.h"
 #include "framework/pose/rigid_equation.h.embed.h"
 #include "framework/pose/rigid_icp.cl.embed.h"
@@ -108,8 +107,8 @@ void RigidIcp::pack(const SeenSurface& surface, int stride, Samples& samples) {
   make_room(samples.values, 6 * static_cast<std::size_t>(samples.padded));
   auto kernel = icp_kernel(*device_, "pack");
   device_->run("icp", kernel, static_cast<std::size_t>(samples.padded), 16, available,
-               surface.pixels.device(*device_), stride, surface.points.device(*device_),
-               surface.normals.device(*device_), samples.padded, samples.values.write_device(*device_));
+               surface.pixels.device(*device_), stride, surface.map.points().device(*device_),
+               surface.map.normals().device(*device_), samples.padded, samples.values.write_device(*device_));
 }
 
 void RigidIcp::prepare(const SeenSurface& source, const SeenSurface& target) {
@@ -151,8 +150,8 @@ void RigidIcp::accumulate(const Level& level, int number, int poses, const SeenS
   auto kernel = icp_kernel(*device_, "accumulate");
   device_->run("icp", kernel, items, 1, poses, number, level.samples.padded,
                level.samples.values.device(*device_), poses_.device(*device_), extents_.device(*device_),
-               pinhole(target.camera), image_size(target.camera), target.points.device(*device_),
-               target.normals.device(*device_), static_cast<cl_float>(options_.max_distance),
+               pinhole(target.map.camera), frame_of(target.map), target.map.points().device(*device_),
+               target.map.normals().device(*device_), static_cast<cl_float>(options_.max_distance),
                static_cast<cl_float>(options_.coarse_distance), static_cast<cl_float>(level.share),
                trim_of(level), static_cast<cl_float>(std::cos(angle)), partials_.write_device(*device_));
 }
@@ -184,9 +183,9 @@ void RigidIcp::judge(int poses, const SeenSurface& source, const SeenSurface& ta
   auto judge = icp_kernel(*device_, "judge");
   device_->run("icp", judge, items, 1, poses, coarse.padded, coarse.values.device(*device_),
                target_samples_.padded, target_samples_.values.device(*device_), poses_.device(*device_),
-               extents_.device(*device_), pinhole(source.camera), image_size(source.camera),
-               source.points.device(*device_), pinhole(target.camera), image_size(target.camera),
-               target.points.device(*device_), static_cast<cl_float>(cut_share),
+               extents_.device(*device_), pinhole(source.map.camera), frame_of(source.map),
+               source.map.points().device(*device_), pinhole(target.map.camera), frame_of(target.map),
+               target.map.points().device(*device_), static_cast<cl_float>(cut_share),
                judged_.write_device(*device_));
   auto verdict = icp_kernel(*device_, "verdict");
   const cl_float2 fewest = {{static_cast<float>(std::max(1.0, fewest_known * coarse.count)),
@@ -314,18 +313,18 @@ struct Direction {
   int known = 0;
 };
 
-Direction compare_reference(const SeenSurface& surface, const PlainMotion& motion, const SeenSurface& map,
+Direction compare_reference(const SeenSurface& surface, const PlainMotion& motion, const SeenSurface& other,
                             double cut) {
   Direction direction;
   for (const int sample : surface.pixels.host()) {
-    const Eigen::Vector3f p = finite_or_none(surface.points, static_cast<std::size_t>(sample));
+    const Eigen::Vector3f p = finite_or_none(surface.map.points(), static_cast<std::size_t>(sample));
     if (!(p.z() > 0)) continue;
     const Eigen::Vector3f moved = motion.turn * (p - motion.from) + motion.to;
     const Eigen::Vector3f normal =
-        motion.turn * finite_or_none(surface.normals, static_cast<std::size_t>(sample));
-    const auto pixel = pixel_reference(map.camera, moved);
+        motion.turn * finite_or_none(surface.map.normals(), static_cast<std::size_t>(sample));
+    const auto pixel = pixel_reference(other.map.camera, moved);
     if (!pixel || normal.dot(moved) > 0) continue;
-    const Eigen::Vector3f q = finite_or_none(map.points, *pixel);
+    const Eigen::Vector3f q = finite_or_none(other.map, other.map.points(), *pixel);
     direction.sum += q.z() > 0 ? std::min<double>((moved - q).norm(), cut) : cut;
     ++direction.known;
   }
@@ -346,16 +345,16 @@ RigidEquations rigid_equations_reference(const SeenSurface& source, const SeenSu
   RigidEquations equations;
   equations.pivot = pivot;
   for (const int sample : source.pixels.host()) {
-    const Eigen::Vector3f p = finite_or_none(source.points, static_cast<std::size_t>(sample));
+    const Eigen::Vector3f p = finite_or_none(source.map.points(), static_cast<std::size_t>(sample));
     const Eigen::Vector3f own =
-        motion.turn * finite_or_none(source.normals, static_cast<std::size_t>(sample));
+        motion.turn * finite_or_none(source.map.normals(), static_cast<std::size_t>(sample));
     const Eigen::Vector3f arm = motion.turn * (p - motion.from);
-    const auto pixel = pixel_reference(target.camera, arm + motion.to);
+    const auto pixel = pixel_reference(target.map.camera, arm + motion.to);
     if (!(p.z() > 0) || !pixel) continue;
-    const Eigen::Vector3f q = finite_or_none(target.points, *pixel);
+    const Eigen::Vector3f q = finite_or_none(target.map, target.map.points(), *pixel);
     if (!(q.z() > 0)) continue;
     ++equations.landed;
-    const Eigen::Vector3f n = finite_or_none(target.normals, *pixel);
+    const Eigen::Vector3f n = finite_or_none(target.map, target.map.normals(), *pixel);
     const Eigen::Vector3f offset = arm + motion.to - q;
     const bool is_alike = own.isZero(0) || own.dot(n) >= static_cast<float>(std::cos(options.max_angle));
     if (n.isZero(0) || offset.norm() > options.max_distance || !is_alike) continue;

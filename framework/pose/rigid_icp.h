@@ -6,7 +6,7 @@
 
 #include "framework/device/array.h"
 #include "framework/device/device.h"
-#include "framework/geometry/camera.h"
+#include "framework/geometry/surface_map.h"
 
 namespace pliant {
 
@@ -31,13 +31,10 @@ struct RigidIcpOptions {
   double search_angle = 0.5236;
 };
 
-/// A surface as a camera sees it. Points (mm) and unit normals are x y z a pixel, (0, 0, 0) where there is
-/// none.
+/// A surface as a camera sees it, and which of its pixels count.
 struct SeenSurface {
-  const Camera& camera;
-  const Array<float>& points;
-  const Array<float>& normals;
-  const Array<int>& pixels;  ///< row-major offsets of pixels that have a point
+  const SurfaceMap& map;
+  const Array<int>& pixels;  ///< offsets in the map's window of pixels that have a point
 };
 
 /// What one matching asks for: J^T J and J^T r of the point-to-plane distances [Eq. 3.2] of the accepted

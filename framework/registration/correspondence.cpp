@@ -53,8 +53,8 @@ void ProjectiveCorrespondence::match(Device& device, const PointSet& moved, cons
   const auto width = static_cast<std::size_t>(device.width());
   device.run("match", kernel, (selected.size() + width - 1) / width, 4, static_cast<cl_int>(selected.size()),
              selected.device(device), constraints.points.device(device), moved.points.device(device),
-             moved.normals.device(device), pinhole(target.camera), image_size(target.camera),
-             target.points.device(device), target.normals.device(device), max_distance_, least_cosine_,
+             moved.normals.device(device), pinhole(target.camera), frame_of(target),
+             target.points().device(device), target.normals().device(device), max_distance_, least_cosine_,
              least_facing_, cl_int{hole_radius()}, cl_int{options_.search_radius}, cl_int{options_.steps},
              cl_int{options_.rim}, cl_int{options_.symmetric}, constraints.data.write_device(device),
              constraints.confidence.write_device(device));
@@ -66,8 +66,8 @@ void ProjectiveCorrespondence::measure(Device& device, const PointSet& moved, co
   const auto width = static_cast<std::size_t>(device.width());
   device.run("residual", kernel, (distances.size() + width - 1) / width, 16,
              static_cast<cl_int>(distances.size()), moved.points.device(device), moved.normals.device(device),
-             pinhole(target.camera), image_size(target.camera), target.points.device(device),
-             target.normals.device(device), max_distance_, least_cosine_, least_facing_,
+             pinhole(target.camera), frame_of(target), target.points().device(device),
+             target.normals().device(device), max_distance_, least_cosine_, least_facing_,
              cl_int{hole_radius()}, distances.write_device(device));
 }
 
@@ -80,15 +80,15 @@ void ProjectiveCorrespondence::measure_reference(const PointSet& moved, const Su
     Pixel pixel = seen_pixel_reference(target, point);
     if (!pixel) pixel = search(target, point, normal, hole_radius());
     if (pixel && is_facing(point, normal) && accepts(target, *pixel, point, normal))
-      distances[i] = (point - at(target.points, *pixel)).norm();
+      distances[i] = (point - at(target.points(), *pixel)).norm();
   }
 }
 
 bool ProjectiveCorrespondence::accepts(const SurfaceMap& target, std::size_t pixel,
                                        const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
-  const Eigen::Vector3f target_normal = finite_or_none(target.normals, pixel);
+  const Eigen::Vector3f target_normal = finite_or_none(target.normals(), pixel);
   const bool has_normals = normal.squaredNorm() > 0 && target_normal.squaredNorm() > 0;
-  return (point - at(target.points, pixel)).norm() <= max_distance_ &&
+  return (point - at(target.points(), pixel)).norm() <= max_distance_ &&
          (!has_normals || normal.dot(target_normal) >= least_cosine_);
 }
 
@@ -97,18 +97,18 @@ bool ProjectiveCorrespondence::is_facing(const Eigen::Vector3f& point, const Eig
 }
 
 bool ProjectiveCorrespondence::is_rim(const SurfaceMap& target, std::size_t pixel) const {
-  const int width = target.camera.width;
+  const int width = target.window.width;
   const int u = static_cast<int>(pixel) % width;
   const int v = static_cast<int>(pixel) / width;
   const int rim = options_.rim;
-  if (u < rim || v < rim || u + rim >= width || v + rim >= target.camera.height) return true;
-  const float z = at(target.points, pixel).z();
+  if (u < rim || v < rim || u + rim >= width || v + rim >= target.window.height) return true;
+  const float z = at(target.points(), pixel).z();
   const float jump = steepest_slope * static_cast<float>(rim) * z /
                      static_cast<float>(std::max(target.camera.fx, target.camera.fy));
   for (const int dv : {-rim, 0, rim})
     for (const int du : {-rim, 0, rim}) {
       const float other =
-          finite_or_none(target.points, static_cast<std::size_t>((v + dv) * width + u + du)).z();
+          finite_or_none(target.points(), static_cast<std::size_t>((v + dv) * width + u + du)).z();
       if (!(other > 0 && std::abs(other - z) <= jump)) return true;
     }
   return false;
@@ -116,24 +116,24 @@ bool ProjectiveCorrespondence::is_rim(const SurfaceMap& target, std::size_t pixe
 
 std::size_t ProjectiveCorrespondence::walk(const SurfaceMap& target, const Eigen::Vector3f& point,
                                            std::size_t pixel) const {
-  const auto distance = [&](std::size_t to) { return (point - at(target.points, to)).norm(); };
+  const auto distance = [&](std::size_t to) { return (point - at(target.points(), to)).norm(); };
   for (int step = 0; step < options_.steps; ++step) {
-    const Eigen::Vector3f n = finite_or_none(target.normals, pixel);
-    const Eigen::Vector3f foot = point - (point - at(target.points, pixel)).dot(n) * n;
+    const Eigen::Vector3f n = finite_or_none(target.normals(), pixel);
+    const Eigen::Vector3f foot = point - (point - at(target.points(), pixel)).dot(n) * n;
     const Pixel next = seen_pixel_reference(target, foot);
     if (next == pixel) return pixel;
     if (!next || !(distance(*next) < distance(pixel))) break;
     pixel = *next;
   }
-  const int width = target.camera.width;
+  const int width = target.window.width;
   for (int step = 0; step < options_.steps; ++step) {
     const std::size_t before = pixel;
     const int u = static_cast<int>(pixel) % width;
     const int v = static_cast<int>(pixel) / width;
-    for (int y = std::max(v - 1, 0); y <= std::min(v + 1, target.camera.height - 1); ++y)
+    for (int y = std::max(v - 1, 0); y <= std::min(v + 1, target.window.height - 1); ++y)
       for (int x = std::max(u - 1, 0); x <= std::min(u + 1, width - 1); ++x) {
         const auto next = static_cast<std::size_t>(y * width + x);
-        if (finite_or_none(target.points, next).z() > 0 && distance(next) < distance(pixel)) pixel = next;
+        if (finite_or_none(target.points(), next).z() > 0 && distance(next) < distance(pixel)) pixel = next;
       }
     if (pixel == before) break;
   }
@@ -147,13 +147,14 @@ ProjectiveCorrespondence::Pixel ProjectiveCorrespondence::search(const SurfaceMa
   if (radius == 0 || !(point.z() > 0)) return std::nullopt;
   const Eigen::Vector2d centre = target.camera.project(point.cast<double>()).array().round();
   Pixel best;
-  for (int v = 0; v < target.camera.height; ++v)
-    for (int u = 0; u < target.camera.width; ++u) {
+  const PixelWindow& window = target.window;
+  for (int v = window.top; v < window.top + window.height; ++v)
+    for (int u = window.left; u < window.left + window.width; ++u) {
       if (std::abs(u - centre.x()) > radius || std::abs(v - centre.y()) > radius) continue;
-      const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(target.camera.width) +
-                         static_cast<std::size_t>(u);
-      if (!(finite_or_none(target.points, pixel).z() > 0) || !accepts(target, pixel, point, normal)) continue;
-      const auto distance = [&](std::size_t offset) { return (point - at(target.points, offset)).norm(); };
+      const std::size_t pixel = window.offset(u, v);
+      if (!(finite_or_none(target.points(), pixel).z() > 0) || !accepts(target, pixel, point, normal))
+        continue;
+      const auto distance = [&](std::size_t offset) { return (point - at(target.points(), offset)).norm(); };
       if (!best || distance(pixel) < distance(*best)) best = pixel;
     }
   return best;
@@ -183,9 +184,10 @@ void ProjectiveCorrespondence::match_reference(const PointSet& moved, const Arra
     const Pixel pixel = match_point(target, at(moved.points, point), normal);
     confidence[i] = pixel ? 1.0F : 0.0F;
     if (!pixel) continue;
-    Eigen::Vector3f plane = finite_or_none(target.normals, *pixel);
+    Eigen::Vector3f plane = finite_or_none(target.normals(), *pixel);
     if (options_.symmetric && plane.squaredNorm() > 0) plane = mean_normal(plane, normal);
-    Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i) = at(target.points, *pixel) - at(constraints.points, i);
+    Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i) =
+        at(target.points(), *pixel) - at(constraints.points, i);
     Eigen::Map<Eigen::Vector3f>(data.data() + 6 * i + 3) = plane;
   }
 }

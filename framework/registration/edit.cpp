@@ -54,10 +54,9 @@ class Edit {
         source_(source_surface(pair)),
         rest_{flatten(source_.points), flatten(source_.normals)},
         grips_(take_hold(handles, source_)),
-        nodes_(
-            timed(times_, "ans", [&] { return method.graph->select_nodes(device, source_, pair.camera); })),
-        graph_(embed_graph(device, *nodes_, source_.points, rest_.points, method.nearest_nodes, pair.name,
-                           times_)) {
+        nodes_(timed(times_, "ans", [&] { return select_nodes(pair.camera); })),
+        graph_(embed_graph(device, *nodes_, rest_, method.nearest_nodes, pair.name)) {
+    connect(graph_, times_);
     make_problem();
   }
 
@@ -81,6 +80,10 @@ class Edit {
   }
 
  private:
+  std::unique_ptr<NodeSelection> select_nodes(const Camera& camera) {
+    return method_.graph->select_nodes(device_, {index_pixels(source_), rest_, camera});
+  }
+
   void make_problem() {
     const auto held = make_constraints(device_, source_, grips_, graph_.influences);
     held_ = static_cast<int>(held->size());

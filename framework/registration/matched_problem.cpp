@@ -10,24 +10,6 @@
 namespace pliant {
 namespace {
 
-std::vector<Eigen::Vector3f> pick(const std::vector<Eigen::Vector3f>& points,
-                                  const std::vector<int>& indices) {
-  std::vector<Eigen::Vector3f> picked;
-  picked.reserve(indices.size());
-  for (const int index : indices) picked.push_back(points[static_cast<std::size_t>(index)]);
-  return picked;
-}
-
-std::shared_ptr<Constraints> make_constraints(const std::vector<Eigen::Vector3f>& points,
-                                              Influences influences) {
-  auto constraints = std::make_shared<Constraints>();
-  constraints->points = flatten(points);
-  constraints->influences = std::move(influences);
-  constraints->data = Array<float>(std::vector<float>(6 * points.size(), 0.0F));
-  constraints->confidence = Array<float>(std::vector<float>(points.size(), 0.0F));
-  return constraints;
-}
-
 /// The features as constraints whose targets stay.
 std::shared_ptr<Constraints> make_feature_constraints(Device& device, const NonRigidMethod& method,
                                                       const PointMatches& features,
@@ -39,8 +21,10 @@ std::shared_ptr<Constraints> make_feature_constraints(Device& device, const NonR
     const Eigen::Vector3f way = (features.to[i] - features.from[i]).cast<float>();
     data.insert(data.end(), {way.x(), way.y(), way.z(), 0, 0, 0});
   }
-  auto constraints = make_constraints(
-      points, compute_influences(device, flatten(points), graph.positions, method.nearest_nodes));
+  auto constraints = std::make_shared<Constraints>();
+  constraints->points = flatten(points);
+  constraints->influences =
+      compute_influences(device, constraints->points, graph.positions, method.nearest_nodes);
   constraints->data = Array<float>(std::move(data));
   constraints->confidence = Array<float>(features.confidence);
   return constraints;
@@ -72,20 +56,28 @@ bool applies(const NonRigidMethod& method, const Energy& energy) {
   return energy.weight > 0 && (!energy.uses_features() || uses_features(method));
 }
 
-MatchedProblem make_matched_problem(Device& device, const NonRigidMethod& method, const NonRigidInput& input,
-                                    const EmbeddedGraph& graph, const PointSelection& selection,
-                                    bool follows_all) {
+MatchedConstraints make_constraints(Device& device, const NonRigidInput& input,
+                                    const PointSelection& selection, bool follows_all) {
   const std::vector<int>& points = selection.points();
   if (points.empty())
     throw DataError(fmt::format("{}: no constraint falls on the source; choose a finer one", input.name));
-  Array<int> selected(points);
-  auto constraints = make_constraints(pick(input.source.points, points),
-                                      pick_influences(device, graph.influences, selected));
-  if (!follows_all) selected = first_indices(points.size());
-  auto problem = std::make_unique<Problem>(DeformationGraph{graph.positions, graph.edges},
-                                           make_terms(device, method, input.features, graph, constraints),
-                                           method.length_unit, *method.transform);
-  return {std::move(selected), Array<float>(selection.weights()), std::move(constraints), std::move(problem)};
+  Array<int> indices(points);
+  PointSet rest = pick_points(device, input.rest, indices);
+  auto constraints = std::make_shared<Constraints>();
+  constraints->points = rest.points.clone();
+  constraints->data = Array<float>(6 * points.size());
+  constraints->confidence = Array<float>(points.size());
+  return {points, follows_all ? std::move(indices) : first_indices(points.size()),
+          Array<float>(selection.weights()), std::move(rest), std::move(constraints)};
+}
+
+std::unique_ptr<Problem> make_problem(Device& device, const NonRigidMethod& method,
+                                      const PointMatches& features, const EmbeddedGraph& graph,
+                                      const MatchedConstraints& matched) {
+  matched.constraints->influences = pick_influences(device, graph.influences, Array<int>(matched.points));
+  return std::make_unique<Problem>(DeformationGraph{graph.positions, graph.edges},
+                                   make_terms(device, method, features, graph, matched.constraints),
+                                   method.length_unit, *method.transform);
 }
 
 }  // namespace pliant

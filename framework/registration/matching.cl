@@ -12,8 +12,8 @@ Vector load_selected(global const int* selected, int count, global const float* 
 }
 
 // Of those that have a target point at the pixel that they project to, that pixel.
-Pixels target_pixels(Vector p, float4 camera, int2 size, global const float* target_points) {
-  const Pixels pixels = project(p, camera, size);
+Pixels target_pixels(Vector p, float4 camera, int8 frame, global const float* target_points) {
+  const Pixels pixels = project(p, camera, frame);
   return select(NONE, pixels, gather(pixels, target_points).z > (Lanes)0);
 }
 
@@ -54,32 +54,33 @@ int is_acceptable(float3 p, float3 normal, int pixel, global const float* target
 }
 
 // The least distance between a point at depth 1 and the viewing ray of a pixel, per pixel between the two.
-float distance_per_pixel(float4 camera, int2 size) {
-  const float2 corner = fmax(camera.zw, convert_float2(size) - camera.zw) / camera.xy;
+float distance_per_pixel(float4 camera, int8 frame) {
+  const float2 corner = fmax(camera.zw, convert_float2(frame.s45) - camera.zw) / camera.xy;
   return 1 / (fmax(camera.x, camera.y) * sqrt(1 + dot(corner, corner)));
 }
 
 // Offset of the nearest acceptable target point at most `radius` pixels away in u and v from where p projects
 // to, the first one in row-major order on a tie; -1 where there is none. Searched ring by ring, until no
 // pixel further out can be nearer.
-int nearest_pixel(float3 p, float3 normal, int radius, float4 camera, int2 size,
+int nearest_pixel(float3 p, float3 normal, int radius, float4 camera, int8 frame,
                   global const float* target_points, global const float* target_normals, float max_distance,
                   float least_cosine) {
   if (!(p.z > 0)) return -1;
-  const float2 at = round((float2)(camera.x * p.x / p.z + camera.z, camera.y * p.y / p.z + camera.w));
-  if (!(at.x + radius >= 0 && at.y + radius >= 0 && at.x - radius < size.x && at.y - radius < size.y))
+  const float2 at = round((float2)(camera.x * p.x / p.z + camera.z, camera.y * p.y / p.z + camera.w)) -
+                    convert_float2(frame.s01);
+  if (!(at.x + radius >= 0 && at.y + radius >= 0 && at.x - radius < frame.s2 && at.y - radius < frame.s3))
     return -1;
   const int2 centre = convert_int2(at);
   const float rounding = 0.999f;
-  const float per_ring = rounding * p.z * distance_per_pixel(camera, size);
+  const float per_ring = rounding * p.z * distance_per_pixel(camera, frame);
   int best = -1;
   float best_distance = max_distance;
   for (int ring = 0; ring <= radius && (ring - 0.5f) * per_ring <= best_distance; ++ring)
-    for (int v = max(centre.y - ring, 0); v <= min(centre.y + ring, size.y - 1); ++v) {
+    for (int v = max(centre.y - ring, 0); v <= min(centre.y + ring, frame.s3 - 1); ++v) {
       const int step = abs(v - centre.y) == ring ? 1 : max(2 * ring, 1);  // only the ends of inner rows
       for (int u = centre.x - ring; u <= centre.x + ring; u += step) {
-        if (u < 0 || u >= size.x) continue;
-        const int pixel = v * size.x + u;
+        if (u < 0 || u >= frame.s2) continue;
+        const int pixel = v * frame.s2 + u;
         const float3 q = vload3(pixel, target_points);
         const float away = distance(p, q);
         const int is_nearer = away < best_distance || (away == best_distance && (best < 0 || pixel < best));
@@ -95,14 +96,14 @@ int nearest_pixel(float3 p, float3 normal, int radius, float4 camera, int2 size,
 
 // Whether the target ends, or jumps in depth, at most `rim` pixels from a pixel that has a point. What lies
 // beyond is not seen: the nearest point of all that went out of sight is found here.
-int is_rim(int pixel, int rim, float4 camera, int2 size, global const float* target_points) {
-  const int u = pixel % size.x, v = pixel / size.x;
-  if (u < rim || v < rim || u + rim >= size.x || v + rim >= size.y) return 1;
+int is_rim(int pixel, int rim, float4 camera, int8 frame, global const float* target_points) {
+  const int u = pixel % frame.s2, v = pixel / frame.s2;
+  if (u < rim || v < rim || u + rim >= frame.s2 || v + rim >= frame.s3) return 1;
   const float z = target_points[3 * pixel + 2];
   const float jump = STEEPEST_SLOPE * rim * z / fmax(camera.x, camera.y);
   for (int dv = -rim; dv <= rim; dv += rim)
     for (int du = -rim; du <= rim; du += rim) {
-      const float other = load_finite(pixel + dv * size.x + du, target_points).z;
+      const float other = load_finite(pixel + dv * frame.s2 + du, target_points).z;
       if (!(other > 0 && fabs(other - z) <= jump)) return 1;
     }
   return 0;
@@ -110,18 +111,18 @@ int is_rim(int pixel, int rim, float4 camera, int2 size, global const float* tar
 
 // The pixel of the target point nearest to p that is found from `pixel`, from pixel to pixel nearer to p, at
 // most `steps` of them.
-int descend(float3 p, int pixel, int steps, int2 size, global const float* target_points) {
+int descend(float3 p, int pixel, int steps, int8 frame, global const float* target_points) {
   float least = distance(p, vload3(pixel, target_points));
   int is_nearer = 1;
   for (int step = 0; step < steps && is_nearer; ++step) {
-    const int u = pixel % size.x, v = pixel / size.x;
+    const int u = pixel % frame.s2, v = pixel / frame.s2;
     is_nearer = 0;
-    for (int y = max(v - 1, 0); y <= min(v + 1, size.y - 1); ++y)
-      for (int x = max(u - 1, 0); x <= min(u + 1, size.x - 1); ++x) {
-        const float3 q = load_finite(y * size.x + x, target_points);
+    for (int y = max(v - 1, 0); y <= min(v + 1, frame.s3 - 1); ++y)
+      for (int x = max(u - 1, 0); x <= min(u + 1, frame.s2 - 1); ++x) {
+        const float3 q = load_finite(y * frame.s2 + x, target_points);
         const float away = distance(p, q);
         if (!(q.z > 0 && away < least)) continue;
-        pixel = y * size.x + x;
+        pixel = y * frame.s2 + x;
         least = away;
         is_nearer = 1;
       }
@@ -131,7 +132,7 @@ int descend(float3 p, int pixel, int steps, int2 size, global const float* targe
 
 // The pixels of the target points nearest to p that a walk of at most `steps` steps from `pixels` finds: from
 // the foot of p on one tangent plane to that on the next; where that comes no nearer, from pixel to pixel.
-Pixels closest_pixels(Vector p, Pixels pixels, int steps, float4 camera, int2 size,
+Pixels closest_pixels(Vector p, Pixels pixels, int steps, float4 camera, int8 frame,
                       global const float* target_points, global const float* target_normals) {
   Vector q = gather(pixels, target_points);
   Lanes least = distances(p, q);
@@ -139,7 +140,7 @@ Pixels closest_pixels(Vector p, Pixels pixels, int steps, float4 camera, int2 si
   for (int step = 0; step < steps && ANY(moving); ++step) {
     const Vector n = gather(pixels, target_normals);
     const Vector foot = minus(p, scaled(n, inner(minus(p, q), n)));
-    const Pixels next = target_pixels(foot, camera, size, target_points);
+    const Pixels next = target_pixels(foot, camera, frame, target_points);
     const Vector at_next = gather(next, target_points);
     const Lanes away = distances(p, at_next);
     arrived = select(arrived, next == pixels, moving);
@@ -157,13 +158,13 @@ Pixels closest_pixels(Vector p, Pixels pixels, int steps, float4 camera, int2 si
   STORE_VECTOR(p, x, y, z);
   for (int lane = 0; lane < WIDTH; ++lane)
     if (is_unsure[lane])
-      at[lane] = descend((float3)(x[lane], y[lane], z[lane]), at[lane], steps, size, target_points);
+      at[lane] = descend((float3)(x[lane], y[lane], z[lane]), at[lane], steps, frame, target_points);
   return LOAD_INT(at);
 }
 
 // As `pixels`; of points without one that may be seen, the nearest acceptable one within `radius` pixels.
 Pixels look_around(Pixels pixels, Truth facing, Vector p, Vector normals, int radius, float4 camera,
-                   int2 size, global const float* target_points, global const float* target_normals,
+                   int8 frame, global const float* target_points, global const float* target_normals,
                    float max_distance, float least_cosine) {
   const Truth missing = facing && pixels < (Pixels)0;
   if (!ANY(missing)) return pixels;
@@ -177,7 +178,7 @@ Pixels look_around(Pixels pixels, Truth facing, Vector p, Vector normals, int ra
     if (is_missing[lane])
       at[lane] =
           nearest_pixel((float3)(x[lane], y[lane], z[lane]), (float3)(nx[lane], ny[lane], nz[lane]), radius,
-                        camera, size, target_points, target_normals, max_distance, least_cosine);
+                        camera, frame, target_points, target_normals, max_distance, least_cosine);
   return LOAD_INT(at);
 }
 
@@ -189,7 +190,7 @@ Vector mean_normals(Vector a, Vector b) {
 }
 
 kernel void match(int count, global const int* selected, global const float* rest, global const float* moved,
-                  global const float* normals, float4 camera, int2 size, global const float* target_points,
+                  global const float* normals, float4 camera, int8 frame, global const float* target_points,
                   global const float* target_normals, float max_distance, float least_cosine,
                   float least_facing, int hole_radius, int search_radius, int steps, int rim, int symmetric,
                   global float* data, global float* confidence) {
@@ -199,21 +200,21 @@ kernel void match(int count, global const int* selected, global const float* res
   const Vector p = load_selected(selected + first, there, moved);
   const Vector n = load_selected(selected + first, there, normals);
   const Truth facing = are_facing(p, n, least_facing);
-  Pixels pixels = select(NONE, target_pixels(p, camera, size, target_points), facing);
+  Pixels pixels = select(NONE, target_pixels(p, camera, frame, target_points), facing);
   if (hole_radius > 0)
-    pixels = look_around(pixels, facing, p, n, hole_radius, camera, size, target_points, target_normals,
+    pixels = look_around(pixels, facing, p, n, hole_radius, camera, frame, target_points, target_normals,
                          max_distance, least_cosine);
-  if (steps > 0) pixels = closest_pixels(p, pixels, steps, camera, size, target_points, target_normals);
+  if (steps > 0) pixels = closest_pixels(p, pixels, steps, camera, frame, target_points, target_normals);
   pixels = select(NONE, pixels,
                   are_acceptable(p, n, gather(pixels, target_points), gather(pixels, target_normals),
                                  max_distance, least_cosine));
   if (search_radius > 0)
-    pixels = look_around(pixels, facing, p, n, search_radius, camera, size, target_points, target_normals,
+    pixels = look_around(pixels, facing, p, n, search_radius, camera, frame, target_points, target_normals,
                          max_distance, least_cosine);
   int at[WIDTH];
   STORE_INT(pixels, at);
   for (int lane = 0; lane < there; ++lane)
-    if (rim > 0 && at[lane] >= 0 && is_rim(at[lane], rim, camera, size, target_points)) at[lane] = -1;
+    if (rim > 0 && at[lane] >= 0 && is_rim(at[lane], rim, camera, frame, target_points)) at[lane] = -1;
   pixels = LOAD_INT(at);
   const Vector pull =
       only(pixels >= (Pixels)0, minus(gather(pixels, target_points), load_vectors(rest + 3 * first, there)));
@@ -247,7 +248,7 @@ kernel void find_in_force(int count, global const float* confidence, global int*
 // Distance of each point to the target point at its pixel, or where there is none to the nearest one within
 // `hole_radius` pixels, where it may be seen and that is acceptable, else -1.
 kernel void measure(int count, global const float* moved, global const float* normals, float4 camera,
-                    int2 size, global const float* target_points, global const float* target_normals,
+                    int8 frame, global const float* target_points, global const float* target_normals,
                     float max_distance, float least_cosine, float least_facing, int hole_radius,
                     global float* residuals) {
   const int first = get_global_id(0) * WIDTH;
@@ -255,9 +256,9 @@ kernel void measure(int count, global const float* moved, global const float* no
   const Vector p = load_vectors(moved + 3 * first, count - first);
   const Vector n = load_vectors(normals + 3 * first, count - first);
   const Truth facing = are_facing(p, n, least_facing);
-  Pixels pixels = target_pixels(p, camera, size, target_points);
+  Pixels pixels = target_pixels(p, camera, frame, target_points);
   if (hole_radius > 0)
-    pixels = look_around(pixels, facing, p, n, hole_radius, camera, size, target_points, target_normals,
+    pixels = look_around(pixels, facing, p, n, hole_radius, camera, frame, target_points, target_normals,
                          max_distance, least_cosine);
   const Vector q = gather(pixels, target_points);
   const Truth is_known =
@@ -271,7 +272,7 @@ kernel void measure(int count, global const float* moved, global const float* no
 // are, how many points have one or project onto a target point, how many points are lost (not finite, or so
 // far away that squares are not), and the sum of the squares of all where one that is not known, or longer,
 // is `cut`.
-kernel void sum_residuals(int count, global const float* moved, float4 camera, int2 size,
+kernel void sum_residuals(int count, global const float* moved, float4 camera, int8 frame,
                           global const float* target_points, global const float* residual, float cut,
                           global float8* partials) {
   const int chunk = get_global_id(0) * CHUNK;
@@ -284,7 +285,7 @@ kernel void sum_residuals(int count, global const float* moved, float4 camera, i
     for (int lane = 0; lane < WIDTH; ++lane) values[lane] = first + lane < end ? residual[first + lane] : -1;
     const Lanes r = LOAD(values);
     const Lanes there = WHERE(LANE_OFFSETS < (Lanes)(end - first), (Lanes)1);
-    const Pixels pixels = target_pixels(p, camera, size, target_points);
+    const Pixels pixels = target_pixels(p, camera, frame, target_points);
     landed += WHERE(pixels >= (Pixels)0 || r >= (Lanes)0, there);
     const Lanes known = WHERE(r >= (Lanes)0, (Lanes)1);
     const Lanes counted = select((Lanes)cut, fmin(r, (Lanes)cut), r >= (Lanes)0);

@@ -11,6 +11,7 @@
 #include "framework/core/error.h"
 #include "framework/deformation/warm_start.h"
 #include "framework/deformation/warp.h"
+#include "framework/registration/history.h"
 #include "framework/registration/residual.h"
 
 namespace pliant {
@@ -39,29 +40,22 @@ class Loop {
       : method_(method),
         device_(device),
         input_(input),
-        nodes_(timed(times_, "ans",
-                     [&] { return method.graph->select_nodes(device, input.source, input.target.camera); })),
-        samples_(timed(times_, "acs",
-                       [&] { return method.sampler->select(device, input.source, input.target.camera); })),
-        graph_(make_graph()),
+        nodes_(timed(times_, "ans", [&] { return method.graph->select_nodes(device, view_of(input)); })),
+        samples_(timed(times_, "acs", [&] { return method.sampler->select(device, view_of(input)); })),
         follows_all_(!nodes_->is_fixed() || !samples_->is_fixed()),
-        sampled_(follows_all_ ? PointSet{} : pick_points(device, input.rest, Array<int>(samples_->points()))),
-        matched_problem_(make_problem()),
-        moved_(followed()),
+        history_(method.stopping, method.schedule),
         trust_(std::min(1.0, std::pow(method.trusted_noise / input.noise, 2))),
-        meter_(device, *method.correspondence, input.target, moved_.points.size() / 3, method.stopping.cut) {}
-
-  void match() {
-    set_weights();
-    method_.correspondence->match(device_, moved_, matched_problem_.selected, input_.target,
-                                  *matched_problem_.constraints);
-    if (!matched_problem_.weights.empty())
-      weigh(device_, matched_problem_.weights, *matched_problem_.constraints);
+        graph_(make_graph()),
+        matched_(constrain()),
+        moved_{followed().points.clone(), followed().normals.clone()},
+        meter_(device, *method.correspondence, input.target, moved_.points.size() / 3, method.stopping.cut) {
+    meter_.measure(moved_);
+    match_and_make_problem();
   }
 
   void run(const Observer& observer) {
     bind_solver();
-    measure_start();
+    check_start(meter_.read());
     while (termination_.empty()) {
       iterate();
       const bool has_adapted = termination_.empty() && decide();
@@ -69,100 +63,88 @@ class Loop {
       if (has_adapted) renew();
     }
     collect_summaries();
-    history_.resize(static_cast<std::size_t>(iterations_) + 1);  // without solves that have failed
-    if (!is_after_schedule(history_.size() - 1)) best_ = best_of_all_;
+    history_.end_at(static_cast<std::size_t>(iterations_));  // without solves that have failed
     deform_best();
   }
 
   NonRigidResult take_result();
-  std::unique_ptr<Problem> take_problem() { return std::move(matched_problem_.problem); }
+  std::unique_ptr<Problem> take_problem() {
+    set_weights();
+    return std::move(problem_);
+  }
 
  private:
-  void bind_solver() { solver_ = method_.solver->bind(problem(), device_); }
+  static SurfaceView view_of(const NonRigidInput& input) {
+    return {input.pixels, input.rest, input.target.camera};
+  }
 
   void end(const std::string& termination, const std::string& reason) {
     termination_ = termination;
     reason_ = reason;
   }
 
-  /// A solve that failed has left the deformation as it was: the iterations before it are the result.
-  void collect_summaries() {
-    for (auto& summary : solver_->summaries()) summaries_.push_back(std::move(summary));
-    const auto last = summaries_.begin() + std::min<std::ptrdiff_t>(std::ssize(summaries_), iterations_);
-    const auto failed = std::find_if(summaries_.begin(), last, [](const SolverSummary& summary) {
-      return summary.termination == "failed" || !std::isfinite(summary.initial_energy + summary.final_energy);
-    });
-    if (failed == last) return;
-    iterations_ = static_cast<int>(failed - summaries_.begin());
-    end("failed", failed->failure.empty() ? "the energy is not finite" : failed->failure);
+  // --- graph, constraints and problem ---
+
+  std::shared_ptr<EmbeddedGraph> make_graph() {
+    return std::make_shared<EmbeddedGraph>(
+        embed_graph(device_, *nodes_, input_.rest, method_.nearest_nodes, input_.name));
   }
 
-  void update_source() {
-    warp(device_, followed(), follows_all_ ? graph_->influences : matched_problem_.constraints->influences,
-         graph_->node_points, problem().unknowns(), moved_);
+  MatchedConstraints constrain() { return make_constraints(device_, input_, *samples_, follows_all_); }
+
+  /// The host makes the problem that the constraints are part of while the device matches them.
+  void match_and_make_problem() {
+    match();
+    if (graph_->edges.empty()) connect(*graph_, times_);
+    problem_ = make_problem(device_, method_, input_.features, *graph_, matched_);
+    has_pulled_ = false;
+  }
+
+  void bind_solver() { solver_ = method_.solver->bind(*problem_, device_); }
+
+  void match() {
+    method_.correspondence->match(device_, moved_, matched_.selected, input_.target, *matched_.constraints);
+    if (!matched_.weights.empty()) weigh(device_, matched_.weights, *matched_.constraints);
+    is_matched_ = true;
   }
 
   /// The points that are deformed and measured in each iteration. Where nodes and constraints stay as they
   /// are, the constrained points are enough.
-  const PointSet& followed() const { return follows_all_ ? input_.rest : sampled_; }
+  const PointSet& followed() const { return follows_all_ ? input_.rest : matched_.rest; }
 
-  /// Where an iteration led.
-  struct State {
-    std::size_t iteration = 0;
-    std::shared_ptr<const EmbeddedGraph> graph;
-    Array<float> unknowns;
-  };
-
-  /// Keeps what was measured, and where if it is the best so far: later iterations may do worse, and adapting
-  /// may lead astray. Those of the schedule do not have the weights yet that were asked for: they count only
-  /// when nothing comes after it.
-  void record(const Residual& residual) {
-    const std::size_t iteration = history_.size();
-    shown_ = iteration;
-    history_.push_back({residual.mean, residual.robust, residual.matched});
-    const double enough = (1 - method_.stopping.min_gain) * history_.front().robust;
-    const auto keep_if_better = [&](State& best) {
-      const bool is_better = residual.robust < enough && residual.robust < history_[best.iteration].robust;
-      if (iteration == 0 || is_better) best = {iteration, graph_, problem().unknowns()};
-    };
-    keep_if_better(best_of_all_);
-    if (iteration == 0 || is_after_schedule(iteration)) keep_if_better(best_);
+  void update_source() {
+    warp(device_, followed(), follows_all_ ? graph_->influences : matched_.constraints->influences,
+         graph_->node_points, problem_->unknowns(), moved_);
+    is_matched_ = false;
   }
 
-  bool is_after_schedule(std::size_t iteration) const {
-    return iteration > static_cast<std::size_t>(method_.schedule.iterations);
+  /// Goes on with what adapting chose, if it chose anything.
+  void renew() {
+    collect_summaries();
+    if (nodes_->points().empty())
+      end("no_nodes", "the graph has lost all its nodes");
+    else if (samples_->points().empty())
+      end("no_constraints", "the sampler chose no point");
+    if (termination_.empty()) rebuild();
   }
 
-  /// Puts the source where the best iteration led, and finds what is matched there.
-  void deform_best() {
-    const bool is_there = follows_all_ && shown_ == best_.iteration;
-    if (is_there) {
-      registered_ = std::move(moved_);
-    } else {
-      registered_ = unwritten(input_.rest);
-      warp(device_, input_.rest, best_.graph->influences, best_.graph->node_points, best_.unknowns,
-           registered_);
+  /// Makes graph and problem anew; the deformation so far is kept.
+  void rebuild() {
+    Array<float> start = std::move(problem_->unknowns());
+    if (nodes_->points() != graph_->nodes) {
+      auto next = make_graph();
+      start = carry_over(device_, {*graph_, start}, *next);
+      graph_ = std::move(next);
     }
-    matched_ = is_there && method_.correspondence->measures_matches()
-                   ? flags(meter_.per_point(), [](float residual) { return residual >= 0; })
-                   : find_matched();
+    matched_ = constrain();
+    match_and_make_problem();
+    problem_->unknowns() = std::move(start);
+    bind_solver();
   }
 
-  std::vector<std::uint8_t> find_matched() {
-    const std::size_t count = input_.source.size();
-    Constraints constraints;
-    constraints.points = input_.rest.points;
-    constraints.data = Array<float>(6 * count);
-    constraints.confidence = Array<float>(count);
-    std::vector<int> all(count);
-    std::iota(all.begin(), all.end(), 0);
-    method_.correspondence->match(device_, registered_, Array<int>(std::move(all)), input_.target,
-                                  constraints);
-    return flags(constraints.confidence, [](float confidence) { return confidence > 0; });
-  }
+  // --- iterations ---
 
-  void measure_start() {
-    const Residual residual = meter_.measure(moved_);
+  void check_start(const Residual& residual) {
     if (residual.lost > 0)
       throw NumericalError(
           fmt::format("{}: {} point(s) of the source are not finite where the alignment puts them",
@@ -175,14 +157,21 @@ class Loop {
     record(residual);
   }
 
+  void record(const Residual& residual) {
+    history_.add(residual, graph_, problem_->unknowns());
+    shown_ = history_.last_iteration();
+  }
+
   /// Matches, minimises, updates the source and measures.
   void iterate() {
     try {
-      match();
+      if (!is_matched_) match();
+      set_weights();
       solver_->solve();
       shown_.reset();
       update_source();
-      judge(meter_.measure(moved_));
+      meter_.measure(moved_);
+      judge(meter_.read());
     } catch (const NumericalError& error) {
       end("failed", error.what());
     }
@@ -207,38 +196,14 @@ class Loop {
   /// Whether any energy asks a point to go anywhere. Waits for the device: asked once a problem, and when
   /// nothing is matched.
   bool is_pulled() {
-    const auto& terms = problem().terms();
+    const auto& terms = problem_->terms();
     return has_pulled_ = std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
              return term.constraints != nullptr && term.energy.weight > 0 &&
                     any_in_force(device_, *term.constraints);
            });
   }
 
-  /// Ends the loop, or adapts graph and constraints to the residual and lets it go on: whether they are
-  /// others.
-  bool decide() {
-    const StoppingRule& rule = method_.stopping;
-    if (history_.back().residual_mean < rule.residual)
-      termination_ = "residual";
-    else if (iterations_ >= rule.max_iterations)
-      termination_ = "max_iterations";
-    else
-      return adapt();
-    return false;
-  }
-
-  /// Whether the residual stays, or has come down to where it was before the last adaptation: constraints
-  /// that are taken away where the surface fits, and given back once it no longer does, may swing for ever.
-  bool is_stuck() const {
-    const auto last = history_.rbegin();
-    const double now = last->residual_mean;
-    const auto is_near = [&](const NonRigidResult::Step& earlier) {
-      return std::abs(earlier.residual_mean - now) < method_.stopping.min_progress * earlier.residual_mean;
-    };
-    return is_near(last[1]) || (history_.size() > 2 && now < last[1].residual_mean && is_near(last[2]));
-  }
-
-  static bool is_matched(const Energy& energy) {
+  static bool rests_on_matches(const Energy& energy) {
     return energy.stencil == Stencil::per_constraint && !energy.uses_features();
   }
 
@@ -248,16 +213,29 @@ class Loop {
     for (const Energy& energy : method_.energies) {
       if (!applies(method_, energy)) continue;
       const Energy now = energy.at(method_.schedule.remaining(iterations_));
-      problem().set_weight(term, is_matched(energy) ? trust_ * now.weight : now.weight);
-      problem().set_loss_scale(term, now.loss.scale);
+      problem_->set_weight(term, rests_on_matches(energy) ? trust_ * now.weight : now.weight);
+      problem_->set_loss_scale(term, now.loss.scale);
       ++term;
     }
+  }
+
+  /// Ends the loop, or adapts graph and constraints to the residual and lets it go on: whether they are
+  /// others.
+  bool decide() {
+    const StoppingRule& rule = method_.stopping;
+    if (history_.last().residual_mean < rule.residual)
+      termination_ = "residual";
+    else if (iterations_ >= rule.max_iterations)
+      termination_ = "max_iterations";
+    else
+      return adapt();
+    return false;
   }
 
   /// Only a softer or a first new graph promises more where nothing was gained: adaptive constraints seldom
   /// stay the same, and a graph that has grown without gaining would grow on.
   bool adapt() {
-    const bool was_stuck = is_stuck();
+    const bool was_stuck = history_.is_stuck();
     const bool is_softer = method_.schedule.remaining(iterations_ - 1) > 0;
     const bool may_grow = is_softer || !was_stuck || !has_grown_;
     const bool has_new_nodes = may_grow && adapt_nodes();
@@ -277,46 +255,51 @@ class Loop {
     return timed(times_, "acs", [&] { return samples_->adapt(device_, meter_.per_point()); });
   }
 
-  /// Goes on with what adapting chose, if it chose anything.
-  void renew() {
-    collect_summaries();
-    if (nodes_->points().empty())
-      end("no_nodes", "the graph has lost all its nodes");
-    else if (samples_->points().empty())
-      end("no_constraints", "the sampler chose no point");
-    if (termination_.empty()) rebuild();
-  }
-
-  std::shared_ptr<EmbeddedGraph> make_graph() {
-    return std::make_shared<EmbeddedGraph>(embed_graph(device_, *nodes_, input_.source.points,
-                                                       input_.rest.points, method_.nearest_nodes, input_.name,
-                                                       times_));
-  }
-
-  MatchedProblem make_problem() {
-    return make_matched_problem(device_, method_, input_, *graph_, *samples_, follows_all_);
-  }
-
-  Problem& problem() { return *matched_problem_.problem; }
-
-  /// Makes graph and problem anew; the deformation so far is kept.
-  void rebuild() {
-    Array<float> start = problem().unknowns();
-    if (nodes_->points() != graph_->nodes) {
-      auto next = make_graph();
-      start =
-          carry_over(device_, {graph_->nodes, graph_->influences, start}, next->nodes, input_.source.points);
-      graph_ = std::move(next);
-    }
-    matched_problem_ = make_problem();
-    has_pulled_ = false;
-    problem().unknowns() = std::move(start);
-    bind_solver();
-  }
-
   IterationView view() const {
-    return {iterations_, !termination_.empty(), history_.back(), *graph_, *matched_problem_.constraints,
+    return {iterations_, !termination_.empty(), history_.last(), *graph_, *matched_.constraints,
             moved_,      meter_.per_point()};
+  }
+
+  // --- the end ---
+
+  /// A solve that failed has left the deformation as it was: the iterations before it are the result.
+  void collect_summaries() {
+    for (auto& summary : solver_->summaries()) summaries_.push_back(std::move(summary));
+    const auto last = summaries_.begin() + std::min<std::ptrdiff_t>(std::ssize(summaries_), iterations_);
+    const auto failed = std::find_if(summaries_.begin(), last, [](const SolverSummary& summary) {
+      return summary.termination == "failed" || !std::isfinite(summary.initial_energy + summary.final_energy);
+    });
+    if (failed == last) return;
+    iterations_ = static_cast<int>(failed - summaries_.begin());
+    end("failed", failed->failure.empty() ? "the energy is not finite" : failed->failure);
+  }
+
+  /// Puts the source where the best iteration led, and finds what is matched there.
+  void deform_best() {
+    const History::State& best = history_.best();
+    const bool is_there = follows_all_ && shown_ == best.iteration;
+    if (is_there) {
+      registered_ = std::move(moved_);
+    } else {
+      registered_ = unwritten(input_.rest);
+      warp(device_, input_.rest, best.graph->influences, best.graph->node_points, best.unknowns, registered_);
+    }
+    has_match_ = is_there && method_.correspondence->measures_matches()
+                     ? flags(meter_.per_point(), [](float residual) { return residual >= 0; })
+                     : find_matched();
+  }
+
+  std::vector<std::uint8_t> find_matched() {
+    const std::size_t count = input_.pixels.count;
+    Constraints constraints;
+    constraints.points = input_.rest.points.clone();
+    constraints.data = Array<float>(6 * count);
+    constraints.confidence = Array<float>(count);
+    std::vector<int> all(count);
+    std::iota(all.begin(), all.end(), 0);
+    method_.correspondence->match(device_, registered_, Array<int>(std::move(all)), input_.target,
+                                  constraints);
+    return flags(constraints.confidence, [](float confidence) { return confidence > 0; });
   }
 
   StageTimes times_;
@@ -325,22 +308,21 @@ class Loop {
   const NonRigidInput& input_;
   std::unique_ptr<NodeSelection> nodes_;
   std::unique_ptr<PointSelection> samples_;
-  bool has_grown_ = false;  ///< whether the graph is another than at first
-  std::shared_ptr<const EmbeddedGraph> graph_;
   bool follows_all_;
-  bool has_pulled_ = false;  ///< whether a constraint of the present problem had a match
-  PointSet sampled_;         ///< the constrained points at rest, where only they are followed
-  MatchedProblem matched_problem_;
-  PointSet moved_;                    ///< those that are followed
+  History history_;
+  double trust_;  ///< in matches, by the noise of the depth they rest on
+  std::shared_ptr<EmbeddedGraph> graph_;
+  MatchedConstraints matched_;
+  PointSet moved_;  ///< the followed points
+  ResidualMeter meter_;
+  std::unique_ptr<Problem> problem_;
+  std::unique_ptr<BoundSolver> solver_;
+  bool is_matched_ = false;           ///< whether the constraints are those of `moved_`
+  bool has_pulled_ = false;           ///< whether a constraint of the present problem had a match
+  bool has_grown_ = false;            ///< whether the graph is another than at first
   std::optional<std::size_t> shown_;  ///< the iteration that `moved_` was measured after, if it was
   PointSet registered_;               ///< all, at the end
-  double trust_;                      ///< in matches, by the noise of the depth they rest on
-  ResidualMeter meter_;
-  std::unique_ptr<BoundSolver> solver_;
-  std::vector<NonRigidResult::Step> history_;
-  State best_;         ///< of the alignment and the iterations after the schedule
-  State best_of_all_;  ///< of these and those of the schedule
-  std::vector<std::uint8_t> matched_;
+  std::vector<std::uint8_t> has_match_;
   int iterations_ = 0;
   std::string termination_;  ///< empty while the loop goes on
   std::string reason_;
@@ -369,22 +351,23 @@ NonRigidResult Loop::take_result() {
   NonRigidResult result;
   result.points = unflatten(registered_.points);
   result.normals = unflatten(registered_.normals);
-  result.matched = std::move(matched_);
-  result.node_positions = best_.graph->positions;
-  result.graph_cells = best_.graph->cells;
-  result.counts.source_points = static_cast<int>(input_.source.size());
+  const History::State& best = history_.best();
+  result.matched = std::move(has_match_);
+  result.node_positions = best.graph->positions;
+  result.graph_cells = best.graph->cells;
+  result.counts.source_points = static_cast<int>(input_.pixels.count);
   result.counts.matched_points =
       static_cast<int>(std::count(result.matched.begin(), result.matched.end(), std::uint8_t{1}));
-  result.counts.nodes = static_cast<int>(best_.graph->nodes.size());
-  result.counts.edges = static_cast<int>(best_.graph->edges.size());
-  result.counts.constraints = static_cast<int>(matched_problem_.selected.size());
+  result.counts.nodes = static_cast<int>(best.graph->nodes.size());
+  result.counts.edges = static_cast<int>(best.graph->edges.size());
+  result.counts.constraints = static_cast<int>(matched_.points.size());
   result.counts.unknowns = method_.transform->unknowns * result.counts.nodes;
   result.counts.outer_iterations = iterations_;
-  result.history = std::move(history_);
-  result.returned_iteration = static_cast<int>(best_.iteration);
+  result.history = history_.take_steps();
+  result.returned_iteration = static_cast<int>(best.iteration);
   result.termination = termination_;
   result.reason = reason_;
-  if (reason_.empty() && best_.iteration == 0)
+  if (reason_.empty() && best.iteration == 0)
     result.reason = "no iteration gained stopping.min_gain on the alignment, which is the result";
   result.warnings = warnings_of(method_, result.counts);
   if (result.counts.matched_points < least_matched_share * result.counts.source_points)
@@ -415,9 +398,7 @@ NonRigidResult NonRigid::run(const NonRigidInput& input, const Observer& observe
 }
 
 std::unique_ptr<Problem> NonRigid::freeze(const NonRigidInput& input) const {
-  Loop loop(input, method_, device_);
-  loop.match();
-  return loop.take_problem();
+  return Loop(input, method_, device_).take_problem();
 }
 
 }  // namespace pliant

@@ -1,7 +1,6 @@
 #include "framework/registration/residual.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "framework/registration/matching.h"
@@ -22,18 +21,22 @@ ResidualMeter::ResidualMeter(Device& device, const Correspondence& correspondenc
       cut_(static_cast<float>(cut)),
       per_point_(point_count),
       partials_(device.allocate(chunks_ * sizeof(cl_float8))),
-      total_(device.allocate(sizeof(cl_float8))) {}
+      total_(std::size_t{8}) {}
 
-Residual ResidualMeter::measure(const PointSet& moved) {
+void ResidualMeter::measure(const PointSet& moved) {
   auto sum = matching_kernel(*device_, "sum_residuals");
   auto total = matching_kernel(*device_, "total_residual");
   correspondence_->measure(*device_, moved, *target_, per_point_);
   device_->run("residual", sum, chunks_, 1, static_cast<cl_int>(per_point_.size()),
-               moved.points.device(*device_), pinhole(target_->camera), image_size(target_->camera),
-               target_->points.device(*device_), per_point_.device(*device_), cut_, partials_);
-  device_->run("residual", total, 1, 1, static_cast<cl_int>(chunks_), partials_, total_);
-  std::array<float, 8> record{};
-  device_->read(total_, record.data(), sizeof(record));
+               moved.points.device(*device_), pinhole(target_->camera), frame_of(*target_),
+               target_->points().device(*device_), per_point_.device(*device_), cut_, partials_);
+  device_->run("residual", total, 1, 1, static_cast<cl_int>(chunks_), partials_,
+               total_.write_device(*device_));
+  total_.fetch();
+}
+
+Residual ResidualMeter::read() const {
+  const std::vector<float>& record = total_.host();
   const auto mean = [](float sum, auto count) {
     return count > 0 ? double{sum} / static_cast<double>(count) : 0.0;
   };

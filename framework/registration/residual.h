@@ -15,13 +15,16 @@ struct Residual {
   double robust = 0;
 };
 
-/// Measures residuals on the device; reading one back waits for everything enqueued so far.
+/// Measures residuals on the device.
 class ResidualMeter {
  public:
   /// `cut`: mm, of Residual::robust.
   ResidualMeter(Device& device, const Correspondence& correspondence, const SurfaceMap& target,
                 std::size_t point_count, double cut);
-  Residual measure(const PointSet& moved);
+  /// Only enqueues.
+  void measure(const PointSet& moved);
+  /// Waits for the last measurement.
+  Residual read() const;
   /// What was measured last, point by point, in mm; -1 where a point has no match that is accepted.
   const Array<float>& per_point() const { return per_point_; }
 
@@ -33,10 +36,10 @@ class ResidualMeter {
   float cut_;
   Array<float> per_point_;
   cl::Buffer partials_;
-  cl::Buffer total_;
+  Array<float> total_;
 };
 
-/// Plain C++ reference of ResidualMeter::measure from what it has measured `per_point`.
+/// Plain C++ reference of ResidualMeter from what it has measured `per_point`.
 Residual sum_residuals_reference(const SurfaceMap& target, const Array<float>& moved,
                                  const std::vector<float>& per_point, double cut);
 

@@ -2,9 +2,8 @@
 
 #include <memory>
 
-#include "framework/geometry/camera.h"
+#include "framework/geometry/pixel_index.h"
 #include "framework/geometry/point_selection.h"
-#include "framework/geometry/surface.h"
 
 namespace pliant {
 
@@ -13,9 +12,8 @@ class ConstraintSampler {
  public:
   static constexpr const char* kind = "sampler";
   virtual ~ConstraintSampler() = default;
-  /// `source`: pixels are those of the camera's image. Both must outlive what is returned.
-  virtual std::unique_ptr<PointSelection> select(Device& device, const Surface& source,
-                                                 const Camera& camera) const = 0;
+  /// What is returned keeps nothing of `source`.
+  virtual std::unique_ptr<PointSelection> select(Device& device, const SurfaceView& source) const = 0;
 };
 
 }  // namespace pliant

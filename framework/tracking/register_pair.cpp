@@ -23,9 +23,9 @@ Observer telling(const ProgressSink& progress, const std::string& name, int max_
 /// Moves each point that was given as the filtered one in its place was moved. The transforms are not applied
 /// to it: nothing determines what they do across the surface they were fitted to, and noise would be
 /// stretched by that.
-void move_unfiltered(const Scene& scene, std::vector<Eigen::Vector3f>& points) {
-  for (std::size_t i = 0; i < scene.unfiltered.size(); ++i)
-    points[i] += scene.unfiltered[i] - scene.aligned.points[i];
+void move_unfiltered(const ScenePoints& at_rest, std::vector<Eigen::Vector3f>& points) {
+  for (std::size_t i = 0; i < at_rest.unfiltered.size(); ++i)
+    points[i] += at_rest.unfiltered[i] - at_rest.aligned[i];
 }
 
 }  // namespace
@@ -39,15 +39,16 @@ RegistrationResult register_pair(const FramePair& pair, const Method& method, De
   NonRigidResult deformed =
       NonRigid(method, device)
           .run(input_of(scene), telling(progress, pair.name, method.stopping.max_iterations));
-  move_unfiltered(scene, deformed.points);
+  ScenePoints at_rest = read_points(scene);
+  move_unfiltered(at_rest, deformed.points);
   for (const auto& [stage, time] : times) deformed.time_ms[stage] += time;
   if (scene.alignment.failed)
     deformed.warnings.insert(
         deformed.warnings.begin(),
         "no alignment was found, and the source stays where it is: " + scene.alignment.reason);
   deformed.warnings.insert(deformed.warnings.begin(), pair.warnings.begin(), pair.warnings.end());
-  return {std::move(deformed), std::move(scene.source),
-          std::move(scene.unfiltered.empty() ? scene.aligned.points : scene.unfiltered),
+  return {std::move(deformed), std::move(at_rest.source),
+          std::move(at_rest.unfiltered.empty() ? at_rest.aligned : at_rest.unfiltered),
           std::move(scene.alignment), watch.milliseconds()};
 }
 

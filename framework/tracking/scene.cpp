@@ -12,24 +12,29 @@
 namespace pliant {
 namespace {
 
-DepthMap make_depth_map(const RgbdFrame& frame, StageTimes& times) {
+DepthMap make_depth_map(const Frame& frame, StageTimes& times) {
   return timed(times, "surface", [&] { return DepthMap(frame); });
 }
 
-PointSet make_map(const DepthMap& given, const std::optional<DepthMap>& filtered, const Camera& camera,
-                  Device& device) {
+SurfaceMap make_map(const DepthMap& given, const std::optional<DepthMap>& filtered, const Camera& camera,
+                    Device& device) {
   return make_surface_map(device, filtered ? *filtered : given, camera);
 }
 
-Surface read_surface(const PointSet& set, const std::vector<int>& pixels, const RgbdFrame& frame) {
-  const int width = frame.depth.width();
-  Surface surface{unflatten(set.points), unflatten(set.normals), {}, {}};
-  surface.pixels.reserve(pixels.size());
-  for (const int pixel : pixels) surface.pixels.emplace_back(pixel % width, pixel / width);
-  if (frame.color.empty()) return surface;
-  surface.colors.reserve(pixels.size());
-  for (const int pixel : pixels) surface.colors.push_back(frame.color.data()[pixel]);
-  return surface;
+std::vector<Eigen::Vector2i> pixels_at(const std::vector<int>& offsets, const PixelWindow& window) {
+  std::vector<Eigen::Vector2i> pixels;
+  pixels.reserve(offsets.size());
+  for (const int offset : offsets)
+    pixels.emplace_back(window.left + offset % window.width, window.top + offset / window.width);
+  return pixels;
+}
+
+std::vector<Rgb> colors_at(const std::vector<Eigen::Vector2i>& pixels, const ColorImage& image) {
+  std::vector<Rgb> colors;
+  if (image.empty()) return colors;
+  colors.reserve(pixels.size());
+  for (const Eigen::Vector2i& pixel : pixels) colors.push_back(image(pixel.x(), pixel.y()));
+  return colors;
 }
 
 std::vector<Eigen::Vector3f> unprojected(const std::vector<Eigen::Vector2i>& pixels, const FramePair& pair) {
@@ -59,40 +64,56 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   // Enqueued first: the device makes the surfaces while the host finds the alignment.
   const DepthMap depth = make_depth_map(pair.source, times);
   const auto filtered = method.filter->filter(device, depth, pair.camera);
-  const PointSet map = make_map(depth, filtered, pair.camera, device);
+  const SurfaceMap map = make_map(depth, filtered, pair.camera, device);
   const DepthMap target_depth = make_depth_map(pair.target, times);
-  SurfaceMap target(
-      pair.camera,
-      make_map(target_depth, method.filter->filter(device, target_depth, pair.camera), pair.camera, device));
+  SurfaceMap target =
+      make_map(target_depth, method.filter->filter(device, target_depth, pair.camera), pair.camera, device);
   const double noise = std::isfinite(method.trusted_noise) ? estimate_noise(target_depth) : 0;
 
-  const Array<int> pixels(timed(times, "surface", [&] { return pixels_with_depth(depth); }));
-  if (pixels.empty()) throw DataError(pair.name + ": the source has no point");
-  const AlignmentResult alignment = timed(times, "alignment", [&] {
+  std::vector<int> offsets = timed(times, "surface", [&] { return pixels_with_depth(depth); });
+  if (offsets.empty()) throw DataError(pair.name + ": the source has no point");
+  const Array<int> pixels(offsets);
+  AlignmentResult alignment = timed(times, "alignment", [&] {
     return method.alignment->align({pair, device, map, pixels, target, seed, uses_features(method)});
   });
 
-  PointSet rest = pick_points(device, map, pixels, alignment.motion);
-  Surface as_given = read_surface(pick_points(device, map, pixels), pixels.host(), pair.source);
-  Surface aligned = read_surface(rest, pixels.host(), pair.source);
-  std::vector<Eigen::Vector3f> unfiltered;
-  if (filtered) {
-    as_given.points = unprojected(as_given.pixels, pair);
-    unfiltered = moved_by(alignment.motion, as_given.points);
-  }
+  PointSet given = pick_points(device, map.map, pixels);
+  PointSet rest = pick_points(device, map.map, pixels, alignment.motion);
+  // Copied to the host while there is nothing to wait for.
+  given.points.fetch();
+  given.normals.fetch();
+  rest.points.fetch();
+  PixelIndex index(map.window, offsets);
+  PointMatches features = moved_by(alignment.motion, alignment.features);
   return {pair,
-          alignment,
-          moved_by(alignment.motion, alignment.features),
+          std::move(alignment),
+          std::move(features),
           noise,
           std::move(target),
-          std::move(as_given),
-          std::move(aligned),
+          std::move(offsets),
+          std::move(index),
+          std::move(given),
           std::move(rest),
-          std::move(unfiltered)};
+          filtered.has_value()};
+}
+
+ScenePoints read_points(const Scene& scene) {
+  ScenePoints read;
+  const FramePair& pair = scene.pair;
+  read.source = {unflatten(scene.given.points),
+                 unflatten(scene.given.normals),
+                 pixels_at(scene.offsets, scene.pixels.window),
+                 {}};
+  read.source.colors = colors_at(read.source.pixels, pair.source.color);
+  read.aligned = unflatten(scene.rest.points);
+  if (!scene.is_filtered) return read;
+  read.source.points = unprojected(read.source.pixels, pair);
+  read.unfiltered = moved_by(scene.alignment.motion, read.source.points);
+  return read;
 }
 
 NonRigidInput input_of(const Scene& scene) {
-  return {scene.pair.name, scene.aligned, scene.rest, scene.target, scene.target_noise, scene.features};
+  return {scene.pair.name, scene.pixels, scene.rest, scene.target, scene.target_noise, scene.features};
 }
 
 }  // namespace pliant

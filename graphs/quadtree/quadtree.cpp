@@ -20,7 +20,7 @@ constexpr int first_cell(int level) { return (cell_count(level) - 4) / 3; }
 
 constexpr const char* stage = "ans";
 
-int side_around(const PixelIndex& index) { return std::max(index.points.width(), index.points.height()); }
+int side_around(const PixelIndex& index) { return std::max(index.window.width, index.window.height); }
 
 /// As many levels as are wished for and as pixels allow.
 int possible_levels(int wished, int side) {
@@ -31,8 +31,22 @@ int possible_levels(int wished, int side) {
 
 class QuadtreeNodes : public NodeSelection {
  public:
-  QuadtreeNodes(const QuadtreeGraph::Settings& settings, Device& device, const Surface& source)
-      : QuadtreeNodes(settings, device, source, index_pixels(source)) {}
+  QuadtreeNodes(const QuadtreeGraph::Settings& settings, Device& device, const PixelIndex& index)
+      : settings_(settings),
+        levels_(possible_levels(settings.levels, side_around(index))),
+        initial_levels_(std::min(settings.initial_levels, levels_)),
+        side_(side_around(index)),
+        left_((index.window.width - side_) / 2),
+        top_((index.window.height - side_) / 2),
+        map_left_(index.window.left),
+        map_top_(index.window.top),
+        size_{{index.window.width, index.window.height}},
+        map_(index.points.device(device)),
+        centre_(static_cast<std::size_t>(first_cell(levels_ + 1))),
+        state_(static_cast<std::size_t>(first_cell(levels_ + 1))),
+        totals_(device.allocate(state_.size() * sizeof(cl_float2))) {
+    build(device, index.count);
+  }
 
   const std::vector<int>& points() const override { return nodes_; }
 
@@ -55,31 +69,13 @@ class QuadtreeNodes : public NodeSelection {
   }
 
  private:
-  QuadtreeNodes(const QuadtreeGraph::Settings& settings, Device& device, const Surface& source,
-                const PixelIndex& index)
-      : settings_(settings),
-        levels_(possible_levels(settings.levels, side_around(index))),
-        initial_levels_(std::min(settings.initial_levels, levels_)),
-        side_(side_around(index)),
-        left_((index.points.width() - side_) / 2),
-        top_((index.points.height() - side_) / 2),
-        map_left_(index.left),
-        map_top_(index.top),
-        size_{{index.points.width(), index.points.height()}},
-        map_(index.points.pixels()),
-        centre_(static_cast<std::size_t>(first_cell(levels_ + 1))),
-        state_(static_cast<std::size_t>(first_cell(levels_ + 1))),
-        totals_(device.allocate(state_.size() * sizeof(cl_float2))) {
-    build(device, source.size());
-  }
-
   /// [Alg. 1]: it is [Alg. 2] with a threshold that every cell exceeds.
   void build(Device& device, std::size_t point_count) {
     sum(device, Array<float>(std::vector<float>(point_count, 0.0F)));
     auto find = kernel(device, "find_centres");
     for (int level = 1; level <= levels_; ++level)
-      run(device, find, level, level, root(), size_, map_.device(device), totals_,
-          centre_.write_device(device), state_.write_device(device));
+      run(device, find, level, level, root(), size_, map_, totals_, centre_.write_device(device),
+          state_.write_device(device));
     for (int level = 1; level < initial_levels_; ++level) refine(device, level, -1);
     collect();
   }
@@ -88,8 +84,7 @@ class QuadtreeNodes : public NodeSelection {
   void sum(Device& device, const Array<float>& residuals) {
     auto points = kernel(device, "sum_points");
     auto children = kernel(device, "sum_children");
-    run(device, points, levels_, levels_, root(), size_, map_.device(device), residuals.device(device),
-        totals_);
+    run(device, points, levels_, levels_, root(), size_, map_, residuals.device(device), totals_);
     for (int level = levels_ - 1; level >= 1; --level) run(device, children, level, level, totals_);
   }
 
@@ -155,7 +150,7 @@ class QuadtreeNodes : public NodeSelection {
   int map_left_;
   int map_top_;
   cl_int2 size_;       ///< of the map
-  Array<int> map_;     ///< point at each pixel
+  cl::Buffer map_;     ///< point at each pixel
   Array<int> centre_;  ///< per cell; see quadtree.cl
   Array<int> state_;   ///< per cell; see quadtree.cl
   cl::Buffer totals_;  ///< per cell: sum and number of its known residuals
@@ -174,9 +169,8 @@ QuadtreeGraph::QuadtreeGraph(const Settings& settings) : settings_(settings) {
                                   settings.initial_levels, settings.levels));
 }
 
-std::unique_ptr<NodeSelection> QuadtreeGraph::select_nodes(Device& device, const Surface& source,
-                                                           const Camera&) const {
-  return std::make_unique<QuadtreeNodes>(settings_, device, source);
+std::unique_ptr<NodeSelection> QuadtreeGraph::select_nodes(Device& device, const SurfaceView& source) const {
+  return std::make_unique<QuadtreeNodes>(settings_, device, source.pixels);
 }
 
 void register_quadtree_graph(Registry& registry) {

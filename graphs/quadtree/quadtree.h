@@ -29,8 +29,7 @@ class QuadtreeGraph : public GraphBuilder {
   /// The tree of `initial_levels` [Alg. 1]. Adapting it refines [Alg. 2], each leaf once, then collapses
   /// bottom-up [Alg. 3]. Were the children judged by the same residual at once, a poor first fit would grow
   /// the whole tree.
-  std::unique_ptr<NodeSelection> select_nodes(Device& device, const Surface& source,
-                                              const Camera& camera) const override;
+  std::unique_ptr<NodeSelection> select_nodes(Device& device, const SurfaceView& source) const override;
 
  private:
   Settings settings_;

@@ -15,9 +15,10 @@ class UniformGraph : public GraphBuilder {
  public:
   UniformGraph(int spacing, std::optional<int> wished) : spacing_(spacing), wished_(wished) {}
 
-  std::unique_ptr<NodeSelection> select_nodes(Device&, const Surface& source, const Camera&) const override {
+  std::unique_ptr<NodeSelection> select_nodes(Device&, const SurfaceView& source) const override {
     return std::make_unique<FixedSelection<NodeSelection>>(
-        wished_ ? about_as_many_points_on_grid(source, *wished_) : points_on_grid(source, spacing_));
+        wished_ ? about_as_many_points_on_grid(source.pixels, *wished_)
+                : points_on_grid(source.pixels, spacing_));
   }
 
  private:

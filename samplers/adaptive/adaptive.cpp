@@ -30,8 +30,22 @@ std::vector<int> spread_rows(int step) {
 
 class AdaptiveSelection : public PointSelection {
  public:
-  AdaptiveSelection(int step, float threshold, bool equal_masks, const Surface& source)
-      : AdaptiveSelection(step, threshold, equal_masks, source, index_pixels(source)) {}
+  AdaptiveSelection(int step, float threshold, bool equal_masks, Device& device, const PixelIndex& index)
+      : step_(step),
+        spread_rows_(spread_rows(step)),
+        threshold_(threshold),
+        equal_masks_(equal_masks),
+        corner_{{index.window.left, index.window.top}},
+        size_{{index.window.width, index.window.height}},
+        masks_{{masks_over(index.window.left, index.window.width),
+                masks_over(index.window.top, index.window.height)}},
+        map_(index.points.device(device)),
+        flags_(index.count),
+        points_(points_on_grid(index, step)) {
+    std::vector<int> is_centre(index.count, 0);
+    for (const int point : points_) is_centre[static_cast<std::size_t>(point)] = 1;
+    is_centre_ = Array<int>(std::move(is_centre));
+  }
 
   const std::vector<int>& points() const override { return points_; }
 
@@ -41,29 +55,11 @@ class AdaptiveSelection : public PointSelection {
     auto choose = device.kernel(embedded::samplers_adaptive_adaptive_cl, "choose");
     const auto mask_count = static_cast<std::size_t>(masks_.s[0]) * static_cast<std::size_t>(masks_.s[1]);
     device.run(stage, choose, mask_count, 64, masks_, step_, spread_rows_.device(device), threshold_, corner_,
-               size_, map_.device(device), is_centre_.device(device), residuals.device(device),
-               flags_.write_device(device));
+               size_, map_, is_centre_.device(device), residuals.device(device), flags_.write_device(device));
     return collect();
   }
 
  private:
-  AdaptiveSelection(int step, float threshold, bool equal_masks, const Surface& source,
-                    const PixelIndex& index)
-      : step_(step),
-        spread_rows_(spread_rows(step)),
-        threshold_(threshold),
-        equal_masks_(equal_masks),
-        corner_{{index.left, index.top}},
-        size_{{index.points.width(), index.points.height()}},
-        masks_{{masks_over(index.left, index.points.width()), masks_over(index.top, index.points.height())}},
-        map_(index.points.pixels()),
-        flags_(source.size()),
-        points_(points_on_grid(index, step)) {
-    std::vector<int> is_centre(source.size(), 0);
-    for (const int point : points_) is_centre[static_cast<std::size_t>(point)] = 1;
-    is_centre_ = Array<int>(std::move(is_centre));
-  }
-
   /// Gathers what was chosen; whether it is other points than before. As many constraints as a mask has share
   /// what its one point at first weighs.
   bool collect() {
@@ -88,7 +84,7 @@ class AdaptiveSelection : public PointSelection {
   cl_int2 corner_;        ///< pixel of the map's corner
   cl_int2 size_;          ///< of the map
   cl_int2 masks_;         ///< how many touch the map, across and down
-  Array<int> map_;        ///< point at each pixel
+  cl::Buffer map_;        ///< point at each pixel
   Array<int> is_centre_;  ///< per point: is it the one at the centre of its mask?
   Array<int> flags_;      ///< per point: how many are constrained in its mask, 0 where it is not
   std::vector<int> points_;
@@ -100,8 +96,8 @@ class AdaptiveSelection : public PointSelection {
 AdaptiveSampler::AdaptiveSampler(int step, double threshold, bool equal_masks)
     : step_(step), threshold_(static_cast<float>(threshold)), equal_masks_(equal_masks) {}
 
-std::unique_ptr<PointSelection> AdaptiveSampler::select(Device&, const Surface& source, const Camera&) const {
-  return std::make_unique<AdaptiveSelection>(step_, threshold_, equal_masks_, source);
+std::unique_ptr<PointSelection> AdaptiveSampler::select(Device& device, const SurfaceView& source) const {
+  return std::make_unique<AdaptiveSelection>(step_, threshold_, equal_masks_, device, source.pixels);
 }
 
 void register_adaptive_sampler(Registry& registry) {

@@ -17,8 +17,7 @@ class AdaptiveSampler : public ConstraintSampler {
   /// however many it has; else each weighs 1.
   AdaptiveSampler(int step, double threshold, bool equal_masks);
 
-  std::unique_ptr<PointSelection> select(Device& device, const Surface& source,
-                                         const Camera& camera) const override;
+  std::unique_ptr<PointSelection> select(Device& device, const SurfaceView& source) const override;
 
  private:
   int step_;

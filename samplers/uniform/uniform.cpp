@@ -15,9 +15,10 @@ class UniformSampler : public ConstraintSampler {
  public:
   UniformSampler(int step, std::optional<int> wished) : step_(step), wished_(wished) {}
 
-  std::unique_ptr<PointSelection> select(Device&, const Surface& source, const Camera&) const override {
+  std::unique_ptr<PointSelection> select(Device&, const SurfaceView& source) const override {
     return std::make_unique<FixedSelection<PointSelection>>(
-        wished_ ? about_as_many_points_on_grid(source, *wished_) : points_on_grid(source, step_));
+        wished_ ? about_as_many_points_on_grid(source.pixels, *wished_)
+                : points_on_grid(source.pixels, step_));
   }
 
  private:

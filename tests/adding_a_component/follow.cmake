@@ -1,6 +1,6 @@
-# Does what docs/adding-a-component.md tells its reader to do, to copies of the room `energies` and of the list of
-# reports, and runs the tests there. Variables: SOURCE (the project), WORK (a folder to work in), ROOMS (the exported libraries) and
-# CONFIGURE (arguments for configuring, separated by |).
+# Does what docs/adding-a-component.md tells its reader to do, to copies of the rooms `energies`,
+# `experiments/datasets` and `experiments/report`, and runs the tests there. Variables: SOURCE (the project), WORK (a folder to work in),
+# ROOMS (the exported libraries) and CONFIGURE (arguments for configuring, separated by |).
 cmake_minimum_required(VERSION 3.25)
 file(READ ${SOURCE}/docs/adding-a-component.md DOCUMENT)
 
@@ -23,49 +23,64 @@ function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# The source file that the document shows as `FILE`, written to the tree; tests/adding_a_component/EXAMPLE is the
-# same.
-function(write_source FILE EXAMPLE)
-  code_block("`${FILE}`" cpp TEXT)
-  file(WRITE ${TREE}/${FILE} "${TEXT}")
-  file(READ ${SOURCE}/tests/adding_a_component/${EXAMPLE} EXPECTED)
-  if(NOT TEXT STREQUAL EXPECTED)
-    message(FATAL_ERROR "the document and tests/adding_a_component/${EXAMPLE} differ")
+# The code block after TITLE is the file PATH of the tree. The example of the tests must be the same.
+function(write_example PATH EXAMPLE_FILE)
+  code_block("`${PATH}`" cpp TEXT)
+  file(WRITE ${TREE}/${PATH} "${TEXT}")
+  file(READ ${SOURCE}/tests/adding_a_component/${EXAMPLE_FILE} EXAMPLE)
+  if(NOT TEXT STREQUAL EXAMPLE)
+    message(FATAL_ERROR "the document and tests/adding_a_component/${EXAMPLE_FILE} differ")
   endif()
 endfunction()
 
-# What the document adds to the list MACRO(ITEM) of a file.
-function(add_to_list FILE MACRO ITEM)
-  code_block("In `${FILE}`, in the list `${MACRO}`" cpp NAME)
-  string(STRIP "${NAME}" NAME)
-  file(READ ${TREE}/${FILE} LIST_FILE)
-  string(REPLACE "#define ${MACRO}(${ITEM})" "#define ${MACRO}(${ITEM}) ${NAME}" CHANGED "${LIST_FILE}")
-  if(CHANGED STREQUAL LIST_FILE)
-    message(FATAL_ERROR "${FILE} has no list ${MACRO}")
+# Puts the code block after TITLE behind the text ANCHOR of the file PATH of the tree.
+function(add_to PATH ANCHOR TITLE LANGUAGE)
+  code_block("${TITLE}" ${LANGUAGE} TEXT)
+  string(STRIP "${TEXT}" TEXT)
+  file(READ ${TREE}/${PATH} BEFORE)
+  string(REPLACE "${ANCHOR}" "${ANCHOR}${SEPARATOR}${TEXT}" AFTER "${BEFORE}")
+  if(AFTER STREQUAL BEFORE)
+    message(FATAL_ERROR "${PATH} has no '${ANCHOR}'")
   endif()
-  file(WRITE ${TREE}/${FILE} "${CHANGED}")
+  file(WRITE ${TREE}/${PATH} "${AFTER}")
 endfunction()
 
 set(TREE ${WORK}/tree)
 file(REMOVE_RECURSE ${TREE})
 file(COPY ${SOURCE}/energies ${SOURCE}/cmake DESTINATION ${TREE})
-file(COPY ${SOURCE}/experiments/report/reports.h ${SOURCE}/experiments/report/reports.cpp
-  DESTINATION ${TREE}/experiments/report)
+file(COPY ${SOURCE}/experiments/datasets ${SOURCE}/experiments/report DESTINATION ${TREE}/experiments)
 file(COPY ${SOURCE}/tests/adding_a_component/project/CMakeLists.txt DESTINATION ${TREE})
 
-write_source(energies/stillness/equation.h stillness/equation.h)
-write_source(energies/stillness/energy.cpp stillness/energy.cpp)
-add_to_list(energies/energies.h PLIANT_ENERGIES ENERGY)
+write_example(energies/stillness/equation.h stillness/equation.h)
+write_example(energies/stillness/energy.cpp stillness/energy.cpp)
+set(SEPARATOR " ")
+add_to(energies/energies.h "#define PLIANT_ENERGIES(ENERGY)"
+  "In `energies/energies.h`, in the list `PLIANT_ENERGIES`" cpp)
 code_block("In an experiment file" yaml EXPERIMENT)
 file(WRITE ${WORK}/experiment.yaml "${EXPERIMENT}")
 
-write_source(experiments/report/csv.cpp csv/csv.cpp)
-add_to_list(experiments/report/reports.h PLIANT_REPORTS REPORT)
-code_block("Among the reports of an experiment" yaml REPORTS)
-file(WRITE ${WORK}/reports.yaml "${REPORTS}")
+set(ROOM experiments/datasets)
+write_example(${ROOM}/approaching_wall.h approaching_wall/approaching_wall.h)
+write_example(${ROOM}/approaching_wall.cpp approaching_wall/approaching_wall.cpp)
+add_to(${ROOM}/CMakeLists.txt "SOURCES" "In `${ROOM}/CMakeLists.txt`, behind `SOURCES`" cmake)
+set(SEPARATOR "\n")
+add_to(${ROOM}/datasets.cpp "#include \"experiments/datasets/datasets.h\""
+  "In `${ROOM}/datasets.cpp`, with the other includes" cpp)
+add_to(${ROOM}/datasets.cpp "void register_datasets(Registry& registry) {"
+  "In `${ROOM}/datasets.cpp`, in `register_datasets`" cpp)
+code_block("An experiment file names it" yaml EXPERIMENT)
+file(WRITE ${WORK}/frames.yaml "${EXPERIMENT}")
+
+write_example(experiments/report/csv.cpp csv/csv.cpp)
+set(SEPARATOR " ")
+add_to(experiments/report/reports.h "#define PLIANT_REPORTS(REPORT)"
+  "In `experiments/report/reports.h`, in the list `PLIANT_REPORTS`" cpp)
+code_block("Among the reports of an experiment" yaml EXPERIMENT)
+file(WRITE ${WORK}/reports.yaml "${EXPERIMENT}")
 
 string(REPLACE "|" ";" CONFIGURE "${CONFIGURE}")
 run(${CMAKE_COMMAND} -S ${TREE} -B ${WORK}/build ${CONFIGURE} -DPLIANT_ROOMS=${ROOMS} -DPLIANT_SOURCE=${SOURCE})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 run(${CMAKE_COMMAND} -E env PLIANT_EXAMPLE=${WORK}/experiment.yaml ${WORK}/build/follow)
+run(${CMAKE_COMMAND} -E env PLIANT_FRAMES_EXAMPLE=${WORK}/frames.yaml ${WORK}/build/follow_frames)
 run(${CMAKE_COMMAND} -E env PLIANT_REPORT_EXAMPLE=${WORK}/reports.yaml ${WORK}/build/follow_report)

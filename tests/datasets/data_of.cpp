@@ -12,7 +12,7 @@
 
 namespace pliant::testing {
 
-std::unique_ptr<DataSource> data_of(const std::string& section) {
+std::unique_ptr<FrameSource> data_of(const std::string& section) {
   const auto path =
       std::filesystem::temp_directory_path() / ("pliant_data_" + std::to_string(::getpid()) + ".yaml");
   const std::string text = "data: " + section + "\n";
@@ -20,9 +20,14 @@ std::unique_ptr<DataSource> data_of(const std::string& section) {
   Registry registry;
   register_datasets(registry);
   const Experiment experiment =
-      load_experiment({path, {}, {}}, {component("data", DataSource::kind)}, registry);
+      load_experiment({path, {}, {}}, {component("data", FrameSource::kind)}, registry);
   std::filesystem::remove(path);
-  return registry.make<DataSource>(experiment.values.section("data"));
+  return registry.make<FrameSource>(experiment.values.section("data"));
+}
+
+LoadedPair load(const FrameSource& source, std::uint64_t seed) {
+  const auto stream = source.open(seed);
+  return {read_pair(*stream), stream->truth(2)};
 }
 
 std::string config_error_of(const std::string& section) {

@@ -3,12 +3,19 @@
 #include <memory>
 #include <string>
 
-#include "experiments/datasets/data_source.h"
+#include "experiments/datasets/frame_source.h"
 
 namespace pliant::testing {
 
-/// The data source that a section of an experiment file describes, e.g. "{type: synthetic_sheet, noise: 1}".
-std::unique_ptr<DataSource> data_of(const std::string& section);
+/// The frame source that a section of an experiment file describes, e.g. "{type: synthetic_sheet, noise: 1}".
+std::unique_ptr<FrameSource> data_of(const std::string& section);
+
+/// The first two frames of a source and what is known of them.
+struct LoadedPair : FramePair {
+  std::optional<PairTruth> truth;
+  const Eigen::Vector3f& motion(int u, int v) const { return truth.value().scene_flow(u, v); }
+};
+LoadedPair load(const FrameSource& source, std::uint64_t seed);
 
 /// The message of the ConfigError that this throws, "" with a failure when it throws none.
 std::string config_error_of(const std::string& section);

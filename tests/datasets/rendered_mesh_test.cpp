@@ -21,6 +21,7 @@ using testing::data_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::LoadedPair;
 
 /// The square of 200 mm of square_glb(), whose targets are "bulge" and "slide", seen from 700 mm.
 class RenderedSquare : public testing::TestFiles {
@@ -30,8 +31,8 @@ class RenderedSquare : public testing::TestFiles {
   std::string section(const std::string& rest = "") const {
     return "{type: rendered_mesh, mesh: " + file("square.glb") + rest + "}";
   }
-  FramePair load(const std::string& rest, std::uint64_t seed = 1) const {
-    return data_of(section(rest))->load(seed);
+  LoadedPair load(const std::string& rest, std::uint64_t seed = 1) const {
+    return testing::load(*data_of(section(rest)), seed);
   }
 };
 
@@ -42,7 +43,7 @@ int count_points(const DepthImage& depth) {
 }
 
 TEST_F(RenderedSquare, IsCentredAtItsDistance) {
-  const FramePair pair = load("");
+  const LoadedPair pair = load("");
   // 200 mm at 700 mm are 150 pixels from 244.5 to 394.5: the rays of 150 columns and rows.
   EXPECT_EQ(count_points(pair.source.depth), 150 * 150);
   EXPECT_FLOAT_EQ(pair.source.depth(245, 165), 700);
@@ -54,33 +55,33 @@ TEST_F(RenderedSquare, IsCentredAtItsDistance) {
 
 TEST_F(RenderedSquare, MovesAsItsExpressionSays) {
   // glTF's x is to the right in the image too; its z comes towards the camera and its y goes up.
-  const FramePair pair = load(", target: [slide=0.5, bulge=1]");
-  EXPECT_TRUE(pair.scene_flow(380, 300).isApprox(Eigen::Vector3f(10, 0, 0), 1e-4f))
-      << pair.scene_flow(380, 300).transpose();
+  const LoadedPair pair = load(", target: [slide=0.5, bulge=1]");
+  EXPECT_TRUE(pair.motion(380, 300).isApprox(Eigen::Vector3f(10, 0, 0), 1e-4f))
+      << pair.motion(380, 300).transpose();
   // Corner 3 is at the upper left; next to it nearly all of its bulge is seen.
-  const Eigen::Vector3f corner = pair.scene_flow(246, 166);
+  const Eigen::Vector3f corner = pair.motion(246, 166);
   EXPECT_NEAR(corner.x(), 10, 1e-3);
   EXPECT_NEAR(corner.z(), -10, 0.2);
-  EXPECT_TRUE(pair.scene_flow(0, 0).array().isNaN().all());
+  EXPECT_TRUE(pair.motion(0, 0).array().isNaN().all());
 }
 
 TEST_F(RenderedSquare, SourceAndIdentityAreOfWhatIsSeenFirst) {
-  const FramePair pair = load(", source: [slide=1], target: [slide=0.25]");
+  const LoadedPair pair = load(", source: [slide=1], target: [slide=0.25]");
   EXPECT_GT(pair.source.depth(395, 200), 0) << "the source is 20 mm further right";
-  EXPECT_NEAR(pair.scene_flow(320, 240).x(), -15, 1e-3);
-  const FramePair same = load(", identity: [slide=1]");
+  EXPECT_NEAR(pair.motion(320, 240).x(), -15, 1e-3);
+  const LoadedPair same = load(", identity: [slide=1]");
   EXPECT_EQ(same.source.depth.pixels(), load("").source.depth.pixels()) << "it is centred anew";
   EXPECT_EQ(same.source.depth.pixels(), same.target.depth.pixels());
 }
 
 TEST_F(RenderedSquare, RigidMotionIsAboutItsMiddle) {
-  const FramePair pair = load(", motion: {rotation_x: 10, rotation_y: 20, shift_x: 3, shift_z: -5}");
+  const LoadedPair pair = load(", motion: {rotation_x: 10, rotation_y: 20, shift_x: 3, shift_z: -5}");
   const double x = std::numbers::pi / 18;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(x, Eigen::Vector3d::UnitX()).toRotationMatrix() *
                                Eigen::AngleAxisd(2 * x, Eigen::Vector3d::UnitY()).toRotationMatrix();
   const Eigen::Vector3d point = pair.camera.unproject(260, 200, 700) - Eigen::Vector3d(0, 0, 700);
   const Eigen::Vector3d expected = turn * point - point + Eigen::Vector3d(3, 0, -5);
-  EXPECT_LT((pair.scene_flow(260, 200).cast<double>() - expected).norm(), 1e-4);
+  EXPECT_LT((pair.motion(260, 200).cast<double>() - expected).norm(), 1e-4);
   // What moved there is what the target sees there.
   const Eigen::Vector3d moved = pair.camera.unproject(260, 200, 700) + expected;
   const Eigen::Vector2d pixel = pair.camera.project(moved).array().round();
@@ -89,7 +90,7 @@ TEST_F(RenderedSquare, RigidMotionIsAboutItsMiddle) {
 
 TEST_F(RenderedSquare, ColoursMoveWithTheMaterial) {
   // 13.33 mm are exactly ten pixels at 700 mm.
-  const FramePair pair = load(", target: [slide=0.6666666666666667]");
+  const LoadedPair pair = load(", target: [slide=0.6666666666666667]");
   for (int u = 250; u < 380; u += 13) {
     EXPECT_NEAR(pair.source.color(u, 240).r, pair.target.color(u + 10, 240).r, 1);
     EXPECT_NEAR(pair.source.color(u, 240).b, pair.target.color(u + 10, 240).b, 1);
@@ -97,17 +98,17 @@ TEST_F(RenderedSquare, ColoursMoveWithTheMaterial) {
 }
 
 TEST_F(RenderedSquare, NoiseComesFromTheSeedAndLeavesTheTruthAlone) {
-  const FramePair clean = load(", target: [slide=1]");
-  const FramePair noisy = load(", target: [slide=1], noise: 1", 3);
+  const LoadedPair clean = load(", target: [slide=1]");
+  const LoadedPair noisy = load(", target: [slide=1], noise: 1", 3);
   EXPECT_EQ(noisy.source.depth.pixels(), load(", target: [slide=1], noise: 1", 3).source.depth.pixels());
   EXPECT_NE(noisy.source.depth.pixels(), load(", target: [slide=1], noise: 1", 4).source.depth.pixels());
   EXPECT_NE(noisy.target.depth.pixels(), clean.target.depth.pixels());
-  EXPECT_EQ(noisy.scene_flow(300, 200), clean.scene_flow(300, 200));
+  EXPECT_EQ(noisy.motion(300, 200), clean.motion(300, 200));
 }
 
 TEST_F(RenderedSquare, TheLeftOfTheTargetCanBeHidden) {
-  const FramePair whole = load(", noise: 1, target: [slide=1]");
-  const FramePair cut = load(", noise: 1, target: [slide=1], hide_left: 0.2");
+  const LoadedPair whole = load(", noise: 1, target: [slide=1]");
+  const LoadedPair cut = load(", noise: 1, target: [slide=1], hide_left: 0.2");
   // The target covers the 150 columns from 260 on, of which 30 are hidden.
   for (int v = 165; v < 315; ++v) {
     for (int u = 0; u < 640; ++u) ASSERT_EQ(cut.target.depth(u, v), u < 290 ? 0 : whole.target.depth(u, v));
@@ -115,7 +116,7 @@ TEST_F(RenderedSquare, TheLeftOfTheTargetCanBeHidden) {
   EXPECT_GT(whole.target.depth(260, 200), 0);
   EXPECT_EQ(whole.target.depth(259, 200), 0);
   EXPECT_EQ(cut.source.depth.pixels(), whole.source.depth.pixels());
-  EXPECT_EQ(cut.scene_flow(250, 200), whole.scene_flow(250, 200)) << "the truth of what is hidden stays";
+  EXPECT_EQ(cut.motion(250, 200), whole.motion(250, 200)) << "the truth of what is hidden stays";
   EXPECT_THAT(config_error_of(section(", hide_left: 1")), HasSubstr("hide_left"));
 }
 
@@ -137,7 +138,7 @@ TEST_F(RenderedSquare, AMeshInAnotherUnitIsToldWithItsSize) {
                     HasSubstr("it is 200000 x 200000 x 0 mm"), HasSubstr("by mesh_scale")));
   EXPECT_THAT(load(", mesh_scale: 10").warnings, ElementsAre(HasSubstr("it is 2 x 2 x 0 mm")));
   EXPECT_THAT(load(", mesh_scale: 1.0e+5").warnings, ElementsAre(HasSubstr("it is 20000 x 20000 x 0 mm")));
-  const FramePair smaller = load(", mesh_scale: 400");
+  const LoadedPair smaller = load(", mesh_scale: 400");
   EXPECT_THAT(smaller.warnings, IsEmpty());
   EXPECT_EQ(count_points(smaller.source.depth), 60 * 60);
 }
@@ -173,12 +174,12 @@ class RenderedFace : public ::testing::TestWithParam<FacePair> {};
 TEST_P(RenderedFace, StartsWhereItsPeersStarted) {
   const std::string mesh = testing::real_data("ict_face/ict_face.glb");
   if (mesh.empty()) GTEST_SKIP() << "ict_face/ict_face.glb is not below PLIANT_DATA";
-  const FramePair pair = data_of("{type: rendered_mesh, noise: 0.375, mesh: " + mesh +
-                                 ", target: " + GetParam().expression + "}")
-                             ->load(1);
+  const LoadedPair pair = testing::load(*data_of("{type: rendered_mesh, noise: 0.375, mesh: " + mesh +
+                                                 ", target: " + GetParam().expression + "}"),
+                                        1);
   const Surface source = make_surface(make_surface_image(pair.source, pair.camera), pair.source.color);
   EXPECT_NEAR(static_cast<double>(source.size()), 30281, 100);
-  const Evaluation evaluation(pair, source, make_surface_image(pair.target, pair.camera));
+  const Evaluation evaluation(pair, pair.truth, source, make_surface_image(pair.target, pair.camera));
   const Metrics start = evaluation.measure(source.points);
   ASSERT_TRUE(start.truth);
   EXPECT_NEAR(start.truth->epe_moving_mean, GetParam().moving_mean, 0.02);

@@ -38,7 +38,7 @@ class RgbdPairFiles : public testing::TestFiles {
     settings_.scene_flow = file("truth.sflow");
   }
 
-  FramePair load() const { return RgbdPair(settings_).load(0); }
+  testing::LoadedPair load() const { return testing::load(RgbdPair(settings_), 0); }
   std::string error() const {
     return data_error_of([&] { load(); });
   }
@@ -47,7 +47,7 @@ class RgbdPairFiles : public testing::TestFiles {
 };
 
 TEST_F(RgbdPairFiles, AreReadAsTheyAre) {
-  const FramePair pair = load();
+  const testing::LoadedPair pair = load();
   EXPECT_EQ(pair.name, "a to b");
   EXPECT_EQ(pair.source.depth(3, 4), 800);
   EXPECT_EQ(pair.target.depth(3, 4), 810);
@@ -56,22 +56,22 @@ TEST_F(RgbdPairFiles, AreReadAsTheyAre) {
   EXPECT_TRUE(pair.target.mask.empty());
   EXPECT_EQ(pair.camera.fx, 50);
   EXPECT_EQ(pair.camera.width, kWidth);
-  EXPECT_TRUE(pair.scene_flow(20, 10).isApprox(Eigen::Vector3f(0, 0, 10), 1e-6f));
+  EXPECT_TRUE(pair.motion(20, 10).isApprox(Eigen::Vector3f(0, 0, 10), 1e-6f));
 }
 
 TEST_F(RgbdPairFiles, DescribeTheSameInAnExperimentFile) {
   DepthImage depth(kWidth, kHeight, 810);
   depth(5, 6) = 816;
   write_depth(file("b.png"), depth);
-  const FramePair pair = testing::data_of("{type: rgbd_pair, source: {depth: " + file("a.png") +
-                                          "}, target: {depth: " + file("b.png") +
-                                          "}, intrinsics: " + file("k.txt") + ", max_depth: 815}")
-                             ->load(0);
+  const testing::LoadedPair pair = testing::load(
+      *testing::data_of("{type: rgbd_pair, source: {depth: " + file("a.png") + "}, target: {depth: " +
+                        file("b.png") + "}, intrinsics: " + file("k.txt") + ", max_depth: 815}"),
+      0);
   EXPECT_EQ(pair.source.depth(3, 4), 800);
   EXPECT_EQ(pair.target.depth(3, 4), 810);
   EXPECT_EQ(pair.target.depth(5, 6), 0) << "farther than max_depth";
   EXPECT_TRUE(pair.source.color.empty());
-  EXPECT_TRUE(pair.scene_flow.empty());
+  EXPECT_FALSE(pair.truth);
 }
 
 DepthImage ramp(float from, float step) {
@@ -89,7 +89,7 @@ TEST_F(RgbdPairFiles, DepthMayBeInAnotherUnit) {
   write_depth(file("a.png"), ramp(4000, 1));
   write_depth(file("b.png"), ramp(4000, 1));
   settings_.depth_scale = 0.2;
-  const FramePair pair = load();
+  const testing::LoadedPair pair = load();
   EXPECT_EQ(pair.source.depth(0, 0), 800);
   EXPECT_FLOAT_EQ(pair.target.depth(1, 0), 800.2F);
   EXPECT_THAT(pair.warnings, IsEmpty());
@@ -214,6 +214,92 @@ TEST_F(RgbdPairFiles, ATruthThatKnowsNothingOfTheSourceIsAnError) {
   write_scene_flow(file("truth.sflow"),
                    Image<Eigen::Vector3f>(kWidth, kHeight, Eigen::Vector3f::Constant(std::nanf(""))));
   EXPECT_THAT(error(), AllOf(HasSubstr("truth.sflow"), HasSubstr("no ground truth on any point")));
+}
+
+/// The same two frames, their colour by a camera of twice the size that is 50 mm to the right: what is at the
+/// column u of the depth, 800 mm away, is at 2 u - 6.25 of the colour, as its columns tell.
+class RgbdPairWithColorCamera : public RgbdPairFiles {
+ protected:
+  RgbdPairWithColorCamera() {
+    ColorImage color(2 * kWidth, 2 * kHeight);
+    for (int v = 0; v < color.height(); ++v)
+      for (int u = 0; u < color.width(); ++u)
+        color(u, v) = {static_cast<std::uint8_t>(u + 100), static_cast<std::uint8_t>(v + 100), 0};
+    write_color(file("a_color.png"), color);
+    write_color(file("b_color.png"), color);
+    write("color_k.txt", "100 0 39\n0 100 29\n0 0 1\n");
+    settings_.color_intrinsics = file("color_k.txt");
+    settings_.color_from_depth.translation().x() = -50;
+  }
+
+  std::string section(const std::string& rest) const {
+    return "{type: rgbd_pair, source: {depth: " + file("a.png") + ", color: " + file("a_color.png") +
+           "}, target: {depth: " + file("b.png") + "}, intrinsics: " + file("k.txt") + rest + "}";
+  }
+  std::string color_intrinsics() const { return ", color_intrinsics: " + file("color_k.txt"); }
+};
+
+TEST_F(RgbdPairWithColorCamera, CarriesColourToTheDepth) {
+  const testing::LoadedPair pair = load();
+  EXPECT_EQ(pair.source.color.width(), kWidth);
+  EXPECT_EQ(pair.target.color.height(), kHeight);
+  for (const int u : {4, 20, 39})
+    EXPECT_EQ(pair.source.color(u, 7), (Rgb{static_cast<std::uint8_t>(2 * u - 6 + 100), 114, 0})) << u;
+  EXPECT_EQ(pair.source.color(2, 7), Rgb{}) << "left of what the colour camera sees";
+  EXPECT_THAT(pair.warnings, IsEmpty());
+}
+
+TEST_F(RgbdPairWithColorCamera, GivesTheStreamAsItWasSeen) {
+  const auto stream = RgbdPair(settings_).open(0);
+  EXPECT_EQ(stream->rig().depth.width, kWidth);
+  EXPECT_EQ(stream->rig().color.value().width, 2 * kWidth);
+  EXPECT_EQ(stream->rig().color_from_depth.translation(), Eigen::Vector3d(-50, 0, 0));
+  CheckedStream frames(*stream);
+  EXPECT_EQ(frames.next().value().color.width(), 2 * kWidth);
+}
+
+TEST_F(RgbdPairWithColorCamera, IsReadFromAnExperimentFile) {
+  const auto pair = testing::load(
+      *testing::data_of(section(color_intrinsics() +
+                                ", color_from_depth: [1, 0, 0, -50, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]")),
+      0);
+  EXPECT_EQ(pair.source.color.pixels(), load().source.color.pixels());
+  EXPECT_TRUE(pair.target.color.empty());
+}
+
+TEST_F(RgbdPairWithColorCamera, ItsDescriptionIsWholeAndRigid) {
+  const std::string unmoved = ", color_from_depth: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]";
+  EXPECT_THAT(testing::config_error_of(section(color_intrinsics())),
+              HasSubstr("'color_from_depth' is missing"));
+  EXPECT_THAT(testing::config_error_of(section(unmoved)), HasSubstr("'color_intrinsics' is missing"));
+  // Column by column, scaled, mirrored.
+  for (const std::string numbers :
+       {"1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -50, 0, 0, 1", "2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1",
+        "-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"})
+    EXPECT_THAT(
+        testing::config_error_of(section(color_intrinsics() + ", color_from_depth: [" + numbers + "]")),
+        AllOf(HasSubstr(".yaml:1:"), HasSubstr("'color_from_depth' is no rigid motion")));
+  EXPECT_THAT(testing::config_error_of(section(color_intrinsics() + ", color_from_depth: [1, 0, 0]")),
+              HasSubstr("has 3 items"));
+  std::string colorless = section(color_intrinsics() + unmoved);
+  const std::string color = ", color: " + file("a_color.png");
+  colorless.erase(colorless.find(color), color.size());
+  EXPECT_THAT(testing::config_error_of(colorless), HasSubstr("without a 'color'"));
+}
+
+TEST_F(RgbdPairWithColorCamera, ADistanceInMetresIsDoubted) {
+  settings_.color_from_depth.translation().x() = -0.05;
+  EXPECT_THAT(load().warnings, ElementsAre(HasSubstr("0.05 mm apart; if it counts in metres, write 50 mm")));
+}
+
+TEST_F(RgbdPairWithColorCamera, ColourOfDifferentSizesIsAnError) {
+  write_color(file("b_color.png"), ColorImage(2 * kWidth, kHeight));
+  EXPECT_THAT(error(), AllOf(HasSubstr("b_color.png: 80x30 pixels"), HasSubstr("a_color.png has 80x60")));
+}
+
+TEST_F(RgbdPairWithColorCamera, IntrinsicsOfAnotherSizeAreAnErrorThere) {
+  write("color_k.txt", "525 0 319.5\n0 525 239.5\n0 0 1\n");
+  EXPECT_THAT(error(), AllOf(HasSubstr("color_k.txt"), HasSubstr("80x60")));
 }
 
 }  // namespace

@@ -16,18 +16,20 @@ namespace {
 using testing::config_error_of;
 using testing::data_of;
 using ::testing::HasSubstr;
+using testing::load;
+using testing::LoadedPair;
 
 using Check = std::function<void(int u, int v, const Eigen::Vector3d& point, const Eigen::Vector3d& motion)>;
 
 /// Calls `check` for every source pixel with depth; gives their number.
-int for_each_point(const FramePair& pair, const Check& check) {
+int for_each_point(const LoadedPair& pair, const Check& check) {
   int count = 0;
   for (int v = 0; v < pair.camera.height; ++v) {
     for (int u = 0; u < pair.camera.width; ++u) {
       if (pair.source.depth(u, v) <= 0) continue;
       ++count;
       check(u, v, pair.camera.unproject(u, v, pair.source.depth(u, v)),
-            Eigen::Vector3d(pair.scene_flow(u, v).cast<double>()));
+            Eigen::Vector3d(pair.motion(u, v).cast<double>()));
     }
   }
   return count;
@@ -74,7 +76,7 @@ TEST(BendingSheet, ShapesThatCannotBeSeenWholeAreErrors) {
 }
 
 TEST(SyntheticSheet, TheTrueMotionLeadsOntoTheBentSurface) {
-  const FramePair pair = data_of("synthetic_sheet")->load(1);
+  const LoadedPair pair = load(*data_of("synthetic_sheet"), 1);
   const BendingSheet sheet({});
   const int points = for_each_point(pair, [&](int, int, const Eigen::Vector3d& point,
                                               const Eigen::Vector3d& motion) {
@@ -91,7 +93,7 @@ TEST(SyntheticSheet, TheTrueMotionLeadsOntoTheBentSurface) {
 }
 
 TEST(SyntheticSheet, DeformsByTwentyMillimetresAndNotAlongTheRaysOnly) {
-  const FramePair pair = data_of("synthetic_sheet")->load(1);
+  const LoadedPair pair = load(*data_of("synthetic_sheet"), 1);
   double longest = 0;
   double sideways = 0;
   for_each_point(pair, [&](int, int, const Eigen::Vector3d& point, const Eigen::Vector3d& motion) {
@@ -104,7 +106,7 @@ TEST(SyntheticSheet, DeformsByTwentyMillimetresAndNotAlongTheRaysOnly) {
 }
 
 TEST(SyntheticSheet, ColoursMoveWithTheMaterial) {
-  const FramePair pair = data_of("{type: synthetic_sheet, amplitude: 60, approach: 60}")->load(1);
+  const LoadedPair pair = load(*data_of("{type: synthetic_sheet, amplitude: 60, approach: 60}"), 1);
   double moved_difference = 0;
   double still_difference = 0;
   int count = 0;
@@ -122,20 +124,72 @@ TEST(SyntheticSheet, ColoursMoveWithTheMaterial) {
 }
 
 TEST(SyntheticSheet, NoiseComesFromTheSeedAndLeavesTheTruthAlone) {
-  const auto clean = data_of("synthetic_sheet")->load(1);
+  const LoadedPair clean = load(*data_of("synthetic_sheet"), 1);
   const auto noisy = data_of("{type: synthetic_sheet, noise: 1}");
-  const FramePair first = noisy->load(1);
-  EXPECT_EQ(first.source.depth.pixels(), noisy->load(1).source.depth.pixels());
-  EXPECT_NE(first.source.depth.pixels(), noisy->load(2).source.depth.pixels());
+  const LoadedPair first = load(*noisy, 1);
+  EXPECT_EQ(first.source.depth.pixels(), load(*noisy, 1).source.depth.pixels());
+  EXPECT_NE(first.source.depth.pixels(), load(*noisy, 2).source.depth.pixels());
   EXPECT_NE(first.source.depth.pixels(), clean.source.depth.pixels());
   EXPECT_NE(first.target.depth.pixels(), clean.target.depth.pixels());
   for_each_point(clean, [&](int u, int v, const Eigen::Vector3d&, const Eigen::Vector3d& motion) {
-    EXPECT_EQ(first.scene_flow(u, v).cast<double>(), motion);
+    EXPECT_EQ(first.motion(u, v).cast<double>(), motion);
   });
 }
 
 TEST(SyntheticSheet, ACameraThatSeesNothingIsAnError) {
-  EXPECT_THROW(data_of("{type: synthetic_sheet, cx: 9000}")->load(1), DataError);
+  EXPECT_THROW(load(*data_of("{type: synthetic_sheet, cx: 9000}"), 1), DataError);
+}
+
+/// The frames of a stream, read to its end.
+std::vector<Frame> frames_of(FrameStream& stream) {
+  CheckedStream checked(stream);
+  std::vector<Frame> frames;
+  while (auto frame = checked.next()) frames.push_back(std::move(*frame));
+  return frames;
+}
+
+const std::string small = "image_width: 64, image_height: 48, focal_length: 52.5";
+
+TEST(SyntheticSheetStream, OfTwoFramesIsThePair) {
+  const auto source = data_of("{type: synthetic_sheet, noise: 1, " + small + "}");
+  const auto frames = frames_of(*source->open(3));
+  const LoadedPair pair = load(*source, 3);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].depth.pixels(), pair.source.depth.pixels());
+  EXPECT_EQ(frames[1].depth.pixels(), pair.target.depth.pixels());
+}
+
+TEST(SyntheticSheetStream, BendsFromFlatToTheWhole) {
+  const auto short_one = frames_of(*data_of("{type: synthetic_sheet, " + small + "}")->open(1));
+  const auto frames = frames_of(*data_of("{type: synthetic_sheet, frames: 7, " + small + "}")->open(1));
+  ASSERT_EQ(frames.size(), 7U);
+  EXPECT_EQ(frames.front().depth.pixels(), short_one.front().depth.pixels());
+  EXPECT_EQ(frames.back().depth.pixels(), short_one.back().depth.pixels());
+  EXPECT_EQ(frames.back().color.pixels(), short_one.back().color.pixels());
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    EXPECT_DOUBLE_EQ(frames[i].time, static_cast<double>(i) / 30);
+  // The middle bulges away from the camera and the whole comes nearer: 18 mm less 25 mm.
+  EXPECT_NEAR(frames[3].depth(32, 24), 803.5, 0.1) << "half-way";
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    EXPECT_GT(frames[i].depth(32, 24), frames[i - 1].depth(32, 24)) << i;
+}
+
+TEST(SyntheticSheetStream, KnowsTheMotionFromTheFirstFrameToEach) {
+  const auto stream = data_of("{type: synthetic_sheet, frames: 4, " + small + "}")->open(1);
+  const PairTruth half = stream->truth(3).value();
+  const PairTruth whole = stream->truth(4).value();
+  const auto frames = frames_of(*stream);
+  const Eigen::Vector3f motion = half.scene_flow(32, 24);
+  EXPECT_NEAR(frames[0].depth(32, 24) + motion.z(), frames[2].depth(32, 24), 0.05);
+  EXPECT_GT(whole.scene_flow(32, 24).z(), motion.z());
+  EXPECT_FALSE(stream->truth(1));
+  EXPECT_FALSE(stream->truth(5));
+}
+
+// A million frames at once would not fit into any memory.
+TEST(SyntheticSheetStream, MakesFramesWhenTheyAreAskedFor) {
+  const auto stream = data_of("{type: synthetic_sheet, frames: 1000000, " + small + "}")->open(1);
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(stream->next());
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #include "framework/deformation/skinning.h"
 
+#include <flann/algorithms/dist.h>
+#include <flann/algorithms/kdtree_single_index.h>
 #include <gmock/gmock.h>
-#include <flann/flann.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -184,8 +185,8 @@ TEST_P(SkinningTest, WeightsAreThoseOfTheEquation) {
 TEST_P(SkinningForEveryK, FlannFindsTheSameNodes) {
   const auto points = random_points(500, 7), nodes = random_points(333, 8);
   auto node_values = flat(nodes), point_values = flat(points);
-  flann::Index<flann::L2_Simple<float>> index(flann::Matrix<float>(node_values.data(), nodes.size(), 3),
-                                              flann::KDTreeSingleIndexParams());
+  flann::KDTreeSingleIndex<flann::L2_Simple<float>> index(
+      flann::Matrix<float>(node_values.data(), nodes.size(), 3));
   index.buildIndex();
   for (int k = 1; k <= 8; ++k) {
     const auto neighbours = static_cast<std::size_t>(k);

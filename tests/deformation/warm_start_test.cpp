@@ -34,7 +34,9 @@ class WarmStartTest : public testing::Test {
         points_.emplace_back(8.0F * static_cast<float>(u), 8.0F * static_cast<float>(v),
                              800.0F + 0.1F * static_cast<float>(u * u));
     for (int point = 3; point < static_cast<int>(points_.size()); point += 25) nodes_.push_back(point);
-    influences_ = compute_influences_reference(flat(points_), pick(points_, nodes_), 4);
+    graph_.nodes = nodes_;
+    graph_.positions = pick(points_, nodes_);
+    graph_.influences = compute_influences_reference(flat(points_), graph_.positions, 4);
     std::mt19937 generator(5);
     std::normal_distribution<float> normal;
     std::vector<float> forms(affine_size * nodes_.size());
@@ -44,7 +46,10 @@ class WarmStartTest : public testing::Test {
   }
 
   Array<float> carried(const std::vector<int>& nodes) {
-    return carry_over(device_, {nodes_, influences_, affine_}, nodes, points_);
+    EmbeddedGraph next;
+    next.nodes = nodes;
+    next.positions = pick(points_, nodes);
+    return carry_over(device_, {graph_, affine_}, next);
   }
 
   /// The form of one node, column by column: R - I, t.
@@ -56,8 +61,8 @@ class WarmStartTest : public testing::Test {
   Eigen::Vector3f moved(int point, const Eigen::Vector3f& place) const {
     const PointSet rest{Array<float>(flat({place})), Array<float>(std::vector<float>(3, 0.0F))};
     const auto first = 4 * static_cast<std::ptrdiff_t>(point);
-    const auto& ids = influences_.nodes.host();
-    const auto& weights = influences_.weights.host();
+    const auto& ids = graph_.influences.nodes.host();
+    const auto& weights = graph_.influences.weights.host();
     const Influences own{
         4, Array<int>(std::vector<int>(ids.begin() + first, ids.begin() + first + 4)),
         Array<float>(std::vector<float>(weights.begin() + first, weights.begin() + first + 4))};
@@ -68,7 +73,7 @@ class WarmStartTest : public testing::Test {
   Device device_;
   Points points_;
   std::vector<int> nodes_;
-  Influences influences_;
+  EmbeddedGraph graph_;
   Array<float> affine_;
 };
 

@@ -71,27 +71,26 @@ TEST_F(ArrayTest, MovesFromOneDeviceToAnother) {
   EXPECT_THAT(values.host(), ElementsAre(112, 113));
 }
 
-TEST_F(ArrayTest, ACopyKeepsWhatTheDeviceHadWritten) {
+TEST_F(ArrayTest, ACloneKeepsWhatTheDeviceHadWritten) {
   Array<float> original(std::vector<float>{1, 2});
   add(original, 1);
-  const Array<float> copy = original;  // enqueued before what comes next
+  const Array<float> copy = original.clone();  // enqueued before what comes next
   add(original, 10);
   EXPECT_THAT(copy.host(), ElementsAre(2, 3));
   EXPECT_THAT(original.host(), ElementsAre(12, 13));
-  const Array<float> empty = Array<float>(std::size_t{0});
-  EXPECT_TRUE(Array<float>(empty).host().empty());
+  EXPECT_TRUE(Array<float>(std::size_t{0}).clone().host().empty());
 }
 
-TEST_F(ArrayTest, ACopyIsIndependent) {
+TEST_F(ArrayTest, ACloneIsIndependent) {
   Array<float> original(std::vector<float>{1, 2});
   add(original, 1);
-  Array<float> copy = original;
+  Array<float> copy = original.clone();
   add(copy, 10);
   EXPECT_THAT(copy.host(), ElementsAre(12, 13));
   EXPECT_THAT(original.host(), ElementsAre(2, 3));
   add(original, 1);
   EXPECT_THAT(original.host(), ElementsAre(3, 4)) << "the device's copy too";
-  copy = original;
+  copy = original.clone();
   add(copy, 10);
   EXPECT_THAT(original.host(), ElementsAre(3, 4));
 }

@@ -194,12 +194,13 @@ TEST(Device, AnAllocationThatDoesNotFitNamesItsSizeAndTheDevices) {
 TEST(Device, TransfersBeyondABufferAreRefused) {
   Device device;
   const auto buffer = device.allocate(16);
-  std::vector<char> bytes(64);
-  EXPECT_THAT(device_error([&] { device.write(buffer, bytes.data(), 64); }),
-              testing::HasSubstr("writing 64 bytes"));
-  EXPECT_THAT(device_error([&] { device.read(buffer, bytes.data(), 64); }),
-              testing::HasSubstr("reading 64 bytes"));
-  EXPECT_THAT(device_error([&] { device.fill_zero(buffer, 64); }), testing::HasSubstr("clearing 64 bytes"));
+  std::vector<char> bytes(100000);  // more than whatever a buffer is rounded up to
+  EXPECT_THAT(device_error([&] { device.write(buffer, bytes.data(), bytes.size()); }),
+              testing::HasSubstr("writing 100000 bytes"));
+  EXPECT_THAT(device_error([&] { device.read(buffer, bytes.data(), bytes.size()); }),
+              testing::HasSubstr("reading 100000 bytes"));
+  EXPECT_THAT(device_error([&] { device.fill_zero(buffer, bytes.size()); }),
+              testing::HasSubstr("clearing 100000 bytes"));
 }
 
 TEST(Device, ClearsBuffers) {
@@ -207,6 +208,59 @@ TEST(Device, ClearsBuffers) {
   Array<float> values(std::vector<float>{1, 2, 3});
   device.fill_zero(values.write_device(device), 2 * sizeof(float));
   EXPECT_THAT(values.host(), testing::ElementsAre(0, 0, 3));
+}
+
+TEST(Device, UploadsCopiesThatMayChangeOnTheHostAtOnce) {
+  Device device;
+  auto kernel = device.kernel(kScale, "scale");
+  std::vector<cl::Buffer> buffers;
+  for (int round = 0; round < 50; ++round) {
+    std::vector<float> values(1000, static_cast<float>(round));
+    buffers.push_back(device.upload(values));
+    std::fill(values.begin(), values.end(), -1.0F);
+    device.run("scale", kernel, values.size(), 0, static_cast<cl_int>(values.size()), 2.0F, buffers.back());
+  }
+  for (int round = 0; round < 50; ++round) {
+    std::vector<float> values(1000);
+    device.read(buffers[static_cast<std::size_t>(round)], values.data(), sizeof(float) * values.size());
+    EXPECT_THAT(values, testing::Each(2.0F * static_cast<float>(round)));
+  }
+}
+
+TEST(Device, UsesDroppedMemoryAgain) {
+  Device device;
+  const auto round = [&](std::size_t count) {
+    const std::vector<float> values(count, 3);
+    const auto uploaded = device.upload(values);
+    const auto other = device.copy(uploaded, sizeof(float) * count);
+    std::vector<float> back(count);
+    device.read(other, back.data(), sizeof(float) * count);
+    EXPECT_EQ(back, values);
+  };
+  round(100000);
+  const auto once = device.counts().allocations;
+  EXPECT_GE(once, 3U) << "two buffers, and the copy on its way";
+  for (std::size_t i = 0; i < 20; ++i) round(100000 - 10 * i);
+  EXPECT_EQ(device.counts().allocations, once) << "smaller ones fit into what is there";
+  const auto held = device.allocate(400000);
+  round(100000);
+  EXPECT_EQ(device.counts().allocations, once + 1) << "what is held is given to nobody else";
+}
+
+TEST(Device, CountsWhatGoesToAndFro) {
+  Device device;
+  const std::vector<float> values(10, 1);
+  std::vector<float> back(10);
+  const auto buffer = device.upload(values);
+  device.write(buffer, values.data(), 8);
+  device.read(buffer, back.data(), 12);
+  device.upload(std::vector<float>{});
+  device.read(buffer, back.data(), 0);
+  const DeviceCounts counts = device.counts();
+  EXPECT_EQ(counts.uploads, 2U);
+  EXPECT_EQ(counts.uploaded_bytes, 48U);
+  EXPECT_EQ(counts.reads, 1U);
+  EXPECT_EQ(counts.read_bytes, 12U);
 }
 
 }  // namespace

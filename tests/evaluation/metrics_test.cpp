@@ -49,13 +49,13 @@ Surface surface_of(const Points& points) {
   return surface;
 }
 
-FramePair pair_without_truth() {
-  const RgbdFrame frame{DepthImage(9, 7), {}, {}};
-  return {"pair", camera, frame, frame, {}};
+FramePair blank_pair() {
+  const Frame frame{DepthImage(9, 7), {}, {}};
+  return {"pair", camera, frame, frame};
 }
 
 Evaluation against_wall(const Points& source) {
-  return Evaluation(pair_without_truth(), surface_of(source), wall_with_hole());
+  return Evaluation(blank_pair(), std::nullopt, surface_of(source), wall_with_hole());
 }
 
 TEST(Residual, IsTheDistanceToThePointAtTheNearestPixel) {
@@ -106,7 +106,7 @@ TEST(Metrics, NearestAgreesWithBruteForce) {
   }
   Points points;
   for (int i = 0; i < 200; ++i) points.emplace_back(side(random), side(random), 500 + side(random));
-  const Evaluation evaluation(pair_without_truth(), surface_of({points[0]}), target);
+  const Evaluation evaluation(blank_pair(), std::nullopt, surface_of({points[0]}), target);
   const std::vector<float> nearest = evaluation.nearest(points);
   double sum = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -145,27 +145,25 @@ TEST(Metrics, NothingCoveredGivesZerosNotNaN) {
 }
 
 TEST(Metrics, NeedsATarget) {
-  EXPECT_THAT([] { Evaluation(pair_without_truth(), surface_of({}), empty_map()); },
+  EXPECT_THAT([] { Evaluation(blank_pair(), std::nullopt, surface_of({}), empty_map()); },
               testing::ThrowsMessage<DataError>(testing::HasSubstr("pair: the target has no point")));
 }
 
-TEST(Metrics, NeedsAPairThatFitsTogether) {
-  FramePair pair = pair_without_truth();
-  pair.scene_flow = Image<Eigen::Vector3f>(4, 3, Eigen::Vector3f::Zero());
+TEST(Metrics, NeedsATruthThatFitsThePair) {
+  const PairTruth truth{Image<Eigen::Vector3f>(4, 3, Eigen::Vector3f::Zero())};
   EXPECT_THAT(
       [&] {
-        Evaluation(pair, surface_of({{0, 0, 1000}}), wall_with_hole());
+        Evaluation(blank_pair(), truth, surface_of({{0, 0, 1000}}), wall_with_hole());
       },
       testing::ThrowsMessage<DataError>(testing::HasSubstr("pair: the scene flow is 4 x 3 pixels")));
 }
 
 TEST(EndPointError, ComparesWithTheTruePosition) {
-  FramePair pair = pair_without_truth();
-  pair.scene_flow = Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f(nan, nan, nan));
-  pair.scene_flow(0, 0) = {0, 0, 10};
-  pair.scene_flow(1, 0) = {0.5f, 0, 0};  // moves less than 1 mm
+  PairTruth truth{Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f(nan, nan, nan))};
+  truth.scene_flow(0, 0) = {0, 0, 10};
+  truth.scene_flow(1, 0) = {0.5f, 0, 0};  // moves less than 1 mm
   const Points source{{0, 0, 1000}, {50, 0, 1000}, {100, 0, 1000}};
-  const Evaluation evaluation(pair, surface_of(source), wall_with_hole());
+  const Evaluation evaluation(blank_pair(), truth, surface_of(source), wall_with_hole());
   const Points moved{{0, 0, 1004}, {50, 0, 1000}, {0, 0, 0}};
   const std::vector<float> errors = evaluation.end_point_errors(moved);
   ASSERT_EQ(errors.size(), 3u);
@@ -180,10 +178,9 @@ TEST(EndPointError, ComparesWithTheTruePosition) {
 }
 
 TEST(EndPointError, PercentileIsTheErrorThat95PercentDoNotExceed) {
-  FramePair pair = pair_without_truth();
-  pair.scene_flow = Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f::Zero());
+  PairTruth truth{Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f::Zero())};
   Points source(20, Eigen::Vector3f(0, 0, 1000));
-  const Evaluation evaluation(pair, surface_of(source), wall_with_hole());
+  const Evaluation evaluation(blank_pair(), truth, surface_of(source), wall_with_hole());
   for (std::size_t i = 0; i < source.size(); ++i) source[i].z() += static_cast<float>(20 - i);
   const Metrics metrics = evaluation.measure(source);
   EXPECT_NEAR(metrics.truth->epe_p95, 19, 1e-3);
@@ -201,26 +198,24 @@ TEST(EndPointError, TellsWhatTheTargetShowsFromWhatItHides) {
         target.points(u, v) = at_pixel(u, v, 800);
     }
   }
-  FramePair pair = pair_without_truth();
-  pair.scene_flow = Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f(0, 0, 5));
-  pair.scene_flow(4, 0) = {nan, nan, nan};
+  PairTruth truth{Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f(0, 0, 5))};
+  truth.scene_flow(4, 0) = {nan, nan, nan};
   const Points source{at_pixel(6, 2, 995), at_pixel(1, 2, 995), at_pixel(6, 6, 995), at_pixel(12, 2, 995),
                       at_pixel(6, 1, 995)};
-  const Evaluation evaluation(pair, surface_of(source), target);
+  const Evaluation evaluation(blank_pair(), truth, surface_of(source), target);
   Points moved = source;  // the seen one is off by 1 mm; behind, cut off and out of view: 2, 4 and 6 mm
   for (std::size_t i = 0; i < 4; ++i) moved[i].z() = 1000 + std::array{1.0F, 2.0F, 4.0F, 6.0F}[i];
-  const Metrics::Truth truth = evaluation.measure(moved).truth.value();
-  EXPECT_NEAR(truth.epe_seen_mean, 1, 1e-3);
-  EXPECT_NEAR(truth.epe_hidden_mean, 4, 1e-3);
-  EXPECT_DOUBLE_EQ(truth.hidden_share, 0.75);
+  const Metrics::Truth errors = evaluation.measure(moved).truth.value();
+  EXPECT_NEAR(errors.epe_seen_mean, 1, 1e-3);
+  EXPECT_NEAR(errors.epe_hidden_mean, 4, 1e-3);
+  EXPECT_DOUBLE_EQ(errors.hidden_share, 0.75);
 }
 
 TEST(EndPointError, IsAbsentWhereNothingIsKnown) {
-  FramePair pair = pair_without_truth();
   const Points source{{0, 0, 1000}};
   EXPECT_TRUE(against_wall(source).end_point_errors(source).empty());
-  pair.scene_flow = Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f(nan, nan, nan));
-  const Evaluation evaluation(pair, surface_of(source), wall_with_hole());
+  const PairTruth truth{Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f(nan, nan, nan))};
+  const Evaluation evaluation(blank_pair(), truth, surface_of(source), wall_with_hole());
   EXPECT_FALSE(evaluation.measure(source).truth.has_value());
 }
 

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <flann/algorithms/dist.h>
+#include <flann/algorithms/kdtree_single_index.h>
 #include <cmath>
-#include <flann/flann.hpp>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -61,8 +62,8 @@ std::vector<float> by_brute_force(const Map& map, const Points& queries) {
 /// The reference: FLANN's single kd-tree, which searches exactly.
 std::vector<float> by_flann(const Map& map, Points queries) {
   Points points = points_of(map);
-  flann::Index<flann::L2_Simple<float>> tree(flann::Matrix<float>(points[0].data(), points.size(), 3),
-                                             flann::KDTreeSingleIndexParams());
+  flann::KDTreeSingleIndex<flann::L2_Simple<float>> tree(
+      flann::Matrix<float>(points[0].data(), points.size(), 3));
   tree.buildIndex();
   std::vector<int> nearest(queries.size());
   std::vector<float> squared(queries.size());

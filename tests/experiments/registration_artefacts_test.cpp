@@ -26,14 +26,17 @@ std::vector<Eigen::Vector3f> moved(std::vector<Eigen::Vector3f> points, float z)
 struct SampleRun {
   explicit SampleRun(float left);
   RunArtefacts artefacts() const {
-    return registration_artefacts(run, pair, make_surface_image(pair.target, pair.camera), result, timing,
-                                  [](const Progress&) {});
+    const SurfaceImage target = make_surface_image(pair.target, pair.camera);
+    const Evaluation evaluation(pair, truth, result.source, target);
+    const Measured measured = measure(evaluation, result, [](const Progress&) {});
+    return registration_artefacts(run, pair, target, result, measured, timing);
   }
   std::vector<Picture> pictures() const { return artefacts().pictures; }
 
   static constexpr float target_depth = 830;
   ExperimentRun run{"sheet/<fast>", {}, "sheet.yaml"};
   FramePair pair;
+  std::optional<PairTruth> truth;
   RegistrationResult result;
   Timing timing{1, 110.75, {{"solve", 90.25}, {"match", 12.5}}, 110.75, 110.75, false};
 };
@@ -44,7 +47,7 @@ SampleRun::SampleRun(float left) {
   pair.source.depth = DepthImage(40, 30, 800);
   for (int v = 0; v < 30; ++v) pair.source.depth(10, v) = 0;
   pair.target.depth = DepthImage(40, 30, target_depth);
-  pair.scene_flow = Image<Eigen::Vector3f>(40, 30, Eigen::Vector3f(0, 0, target_depth - 800));
+  truth = PairTruth{Image<Eigen::Vector3f>(40, 30, Eigen::Vector3f(0, 0, target_depth - 800))};
   result.source = make_surface(make_surface_image(pair.source, pair.camera), {});
   result.aligned_points = moved(result.source.points, 10);
   result.points = moved(result.source.points, target_depth - 800 - left);
@@ -185,7 +188,7 @@ TEST(Registration, TellsItsNumbers) {
 
 TEST(Registration, OmitsTruthThatIsNotKnown) {
   SampleRun sample(4);
-  sample.pair.scene_flow = {};
+  sample.truth.reset();
   const RunArtefacts made = sample.artefacts();
   EXPECT_THAT(make_page(made), Not(HasSubstr("EPE")));
   EXPECT_EQ(made.summary.rows.at(0).cells.at(6), "unknown");

@@ -96,7 +96,8 @@ TEST_F(RunnerTest, ResultSaysWhatTheRegistrationCameTo) {
 class Shifted : public DepthFilter {
  public:
   std::optional<DepthMap> filter(Device&, const DepthMap& map, const Camera&) const override {
-    DepthMap shifted = map;
+    DepthMap shifted(map.window);
+    shifted.depth = map.depth.clone();
     for (float& depth : shifted.depth.write_host()) depth += depth < DepthMap::no_depth ? 3.0F : 0.0F;
     return shifted;
   }

@@ -10,8 +10,8 @@ namespace pliant {
 
 /// Depth with what makes depth hard: curved ground, a step, noise of about 2 mm and holes; without noise
 /// `noise` is 0. The same bits every time.
-inline RgbdFrame made_depth(const Camera& camera, double noise = 2) {
-  RgbdFrame frame{DepthImage(camera.width, camera.height), {}, {}};
+inline Frame made_depth(const Camera& camera, double noise = 2) {
+  Frame frame{DepthImage(camera.width, camera.height), {}, {}};
   std::mt19937 random(7);
   const auto uniform = [&] { return static_cast<double>(random()) / std::mt19937::max() - 0.5; };
   for (int v = 0; v < camera.height; ++v) {

@@ -12,11 +12,9 @@ TEST(PixelIndex, CoversTheProjectionAndNoMore) {
   surface.pixels = {{7, 3}, {4, 5}, {6, 5}};
   surface.points.resize(3, {0, 0, 800});
   const PixelIndex index = index_pixels(surface);
-  EXPECT_EQ(index.left, 4);
-  EXPECT_EQ(index.top, 3);
-  EXPECT_EQ(index.points.width(), 4);
-  EXPECT_EQ(index.points.height(), 3);
-  EXPECT_EQ(index.points.pixels(), (std::vector<int>{-1, -1, -1, 0, -1, -1, -1, -1, 1, -1, 2, -1}));
+  EXPECT_EQ(index.window, (PixelWindow{4, 3, 4, 3}));
+  EXPECT_EQ(index.count, 3U);
+  EXPECT_EQ(index.points.host(), (std::vector<int>{-1, -1, -1, 0, -1, -1, -1, -1, 1, -1, 2, -1}));
 }
 
 TEST(PixelIndex, OfNothingIsEmpty) { EXPECT_TRUE(index_pixels({}).points.empty()); }
@@ -33,7 +31,7 @@ Surface rectangle(const std::function<bool(int, int)>& is_there) {
 
 std::vector<std::pair<int, int>> grid_pixels(const Surface& surface, int step) {
   std::vector<std::pair<int, int>> pixels;
-  for (const int point : points_on_grid(surface, step)) {
+  for (const int point : points_on_grid(index_pixels(surface), step)) {
     const Eigen::Vector2i& pixel = surface.pixels[static_cast<std::size_t>(point)];
     pixels.emplace_back(pixel.y(), pixel.x());
   }
@@ -46,8 +44,8 @@ TEST(PointsOnGrid, AreAtTheCentresOfTheMasks) {
   const Surface dense = rectangle([](int, int) { return true; });
   EXPECT_EQ(grid_pixels(dense, 8),
             (Pixels{{4, 12}, {4, 20}, {4, 28}, {12, 12}, {12, 20}, {12, 28}, {20, 12}, {20, 20}, {20, 28}}));
-  EXPECT_EQ(points_on_grid(dense, 1).size(), dense.size());
-  EXPECT_TRUE(points_on_grid(Surface{}, 8).empty());
+  EXPECT_EQ(points_on_grid(index_pixels(dense), 1).size(), dense.size());
+  EXPECT_TRUE(points_on_grid(index_pixels({}), 8).empty());
 }
 
 TEST(PointsOnGrid, AreNoneBesideTheObject) {

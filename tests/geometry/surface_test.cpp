@@ -15,8 +15,8 @@ namespace {
 const Camera kCamera{525, 530, 79.5, 59.5, 160, 120};
 
 /// A frame whose depth is `depth_of(a, b)` along the ray (a, b, 1).
-RgbdFrame render(const std::function<double(double, double)>& depth_of) {
-  RgbdFrame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
+Frame render(const std::function<double(double, double)>& depth_of) {
+  Frame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
   for (int v = 0; v < kCamera.height; ++v) {
     for (int u = 0; u < kCamera.width; ++u) {
       const Eigen::Vector3d ray = kCamera.unproject(u, v, 1);
@@ -32,7 +32,7 @@ double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3d& b) {
 }
 
 /// A plane through (0, 0, 800) with the given normal.
-RgbdFrame render_plane(const Eigen::Vector3d& normal) {
+Frame render_plane(const Eigen::Vector3d& normal) {
   return render([&](double a, double b) { return 800 * normal.z() / normal.dot(Eigen::Vector3d(a, b, 1)); });
 }
 
@@ -56,7 +56,7 @@ TEST(SurfaceImage, NormalsOfAPlaneAreExactAndFaceTheCamera) {
 TEST(SurfaceImage, NormalsOfASphereAreWithinADegree) {
   const Eigen::Vector3d centre(0, 0, 800);
   const double radius = 60;
-  const RgbdFrame frame = render([&](double a, double b) {
+  const Frame frame = render([&](double a, double b) {
     const Eigen::Vector3d ray(a, b, 1);
     const double along = ray.dot(centre) / ray.squaredNorm();
     const double inside = along * along - (centre.squaredNorm() - radius * radius) / ray.squaredNorm();
@@ -72,7 +72,7 @@ TEST(SurfaceImage, NormalsOfASphereAreWithinADegree) {
 }
 
 TEST(SurfaceImage, DepthStepsAreNotMixed) {
-  const RgbdFrame frame = render([](double a, double) { return a < 0 ? 800 : 850; });
+  const Frame frame = render([](double a, double) { return a < 0 ? 800 : 850; });
   const SurfaceImage map = make_surface_image(frame, kCamera);
   for (int u = 0; u < kCamera.width; ++u) {
     EXPECT_LT(degrees_between(map.normals(u, 60), {0, 0, -1}), 0.01) << u;
@@ -83,7 +83,7 @@ TEST(SurfaceImage, DepthStepsAreNotMixed) {
 }
 
 TEST(SurfaceImage, InvalidDepthIsNoPoint) {
-  RgbdFrame frame = render([](double, double) { return 800; });
+  Frame frame = render([](double, double) { return 800; });
   frame.depth(10, 10) = std::nanf("");
   frame.depth(11, 10) = std::numeric_limits<float>::infinity();
   frame.depth(12, 10) = -5;
@@ -98,7 +98,7 @@ TEST(SurfaceImage, InvalidDepthIsNoPoint) {
 }
 
 TEST(SurfaceImage, OnlyTheMaskCounts) {
-  RgbdFrame frame = render([](double, double b) { return b < 0 ? 800 : 810; });
+  Frame frame = render([](double, double b) { return b < 0 ? 800 : 810; });
   frame.mask = MaskImage(kCamera.width, kCamera.height);
   for (int v = 0; v < 60; ++v) {
     for (int u = 20; u < 40; ++u) frame.mask(u, v) = 255;
@@ -110,7 +110,7 @@ TEST(SurfaceImage, OnlyTheMaskCounts) {
 }
 
 TEST(SurfaceImage, TooFewOrCollinearNeighboursGiveNoNormal) {
-  RgbdFrame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
+  Frame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
   for (const auto& [u, v] : {std::pair(50, 50), {51, 50}, {50, 51}}) frame.depth(u, v) = 800;
   for (int u = 90; u < 100; ++u) frame.depth(u, 50) = 800;
   SurfaceImage map = make_surface_image(frame, kCamera);
@@ -127,7 +127,7 @@ TEST(SurfaceImage, TooFewOrCollinearNeighboursGiveNoNormal) {
 TEST(SurfaceImage, SparseDepthHasNormalsFromFurtherAway) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.5, 0.3, -1).normalized();
   for (const int step : {2, 3, 4, 6, 8}) {
-    RgbdFrame frame = render_plane(normal);
+    Frame frame = render_plane(normal);
     for (int v = 0; v < kCamera.height; ++v)
       for (int u = 0; u < kCamera.width; ++u)
         if (u % step != 0 || v % step != 0) frame.depth(u, v) = 0;
@@ -144,7 +144,7 @@ TEST(SurfaceImage, EmptyInputGivesNothing) {
 }
 
 TEST(Surface, ListsPointsInRowMajorOrderWithTheirColors) {
-  RgbdFrame frame{DepthImage(kCamera.width, kCamera.height), ColorImage(kCamera.width, kCamera.height), {}};
+  Frame frame{DepthImage(kCamera.width, kCamera.height), ColorImage(kCamera.width, kCamera.height), {}};
   const std::vector<Eigen::Vector2i> pixels = {{7, 2}, {90, 2}, {3, 5}, {159, 119}};
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     frame.depth(pixels[i].x(), pixels[i].y()) = 500;
@@ -162,7 +162,7 @@ TEST(Surface, ListsPointsInRowMajorOrderWithTheirColors) {
 }
 
 TEST(Surface, ImagesOfDifferentSizeAreRefused) {
-  RgbdFrame frame = render([](double, double) { return 800; });
+  Frame frame = render([](double, double) { return 800; });
   const SurfaceImage map = make_surface_image(frame, kCamera);
   frame.mask = MaskImage(2, 2, 1);
   EXPECT_THROW(make_surface_image(frame, kCamera), std::invalid_argument);

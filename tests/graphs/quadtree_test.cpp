@@ -11,6 +11,7 @@
 #include "framework/core/error.h"
 #include "framework/geometry/pixel_index.h"
 #include "tests/geometry/holey_surface.h"
+#include "tests/geometry/viewed_surface.h"
 #include "tests/graphs/quadtree_reference.h"
 
 namespace pliant {
@@ -60,7 +61,7 @@ bool contains(const GraphCell& cell, const Eigen::Vector2i& pixel) {
 class QuadtreeTest : public testing::Test {
  protected:
   std::unique_ptr<NodeSelection> select(const Settings& settings, const Surface& surface) {
-    return QuadtreeGraph(settings).select_nodes(device_, surface, Camera{});
+    return QuadtreeGraph(settings).select_nodes(device_, ViewedSurface(surface));
   }
 
   /// Hands `check` the tree of each object as it is built and after each of several adaptations.

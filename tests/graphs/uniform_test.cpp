@@ -8,6 +8,7 @@
 #include "framework/deformation/graph_builder.h"
 #include "framework/geometry/pixel_index.h"
 #include "tests/geometry/holey_surface.h"
+#include "tests/geometry/viewed_surface.h"
 
 namespace pliant {
 namespace {
@@ -21,7 +22,7 @@ std::unique_ptr<GraphBuilder> make_uniform(std::vector<Parameters::Value> values
 class UniformGraphTest : public testing::Test {
  protected:
   std::unique_ptr<NodeSelection> select(std::vector<Parameters::Value> values) {
-    return make_uniform(std::move(values))->select_nodes(device_, surface_, Camera{});
+    return make_uniform(std::move(values))->select_nodes(device_, ViewedSurface(surface_));
   }
 
   Device device_;
@@ -29,7 +30,7 @@ class UniformGraphTest : public testing::Test {
 };
 
 TEST_F(UniformGraphTest, HasThePointAtTheCentreOfEachCell) {
-  EXPECT_EQ(select({{"spacing", std::int64_t{9}}})->points(), points_on_grid(surface_, 9));
+  EXPECT_EQ(select({{"spacing", std::int64_t{9}}})->points(), points_on_grid(index_pixels(surface_), 9));
 }
 
 TEST_F(UniformGraphTest, IsTwelvePixelsWideIfNothingIsSaid) {

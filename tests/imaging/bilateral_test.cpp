@@ -16,9 +16,10 @@ namespace {
 
 const Camera kCamera{300, 290, 84.5, 40, 165, 83};
 
-DepthImage filtered(const BilateralFilter& filter, const RgbdFrame& frame, const DeviceOptions& shape = {}) {
+DepthImage filtered(const BilateralFilter& filter, const Frame& frame, const DeviceOptions& shape = {}) {
   Device device("any", shape);
-  return to_image(*filter.filter(device, DepthMap(frame), Camera{}));
+  const Camera camera{1, 1, 0, 0, frame.depth.width(), frame.depth.height()};
+  return to_image(*filter.filter(device, DepthMap(frame), camera), camera);
 }
 
 /// Largest difference in mm; infinite where only one of both has depth.
@@ -33,7 +34,7 @@ double difference(const DepthImage& a, const DepthImage& b) {
 
 class BilateralKernel : public testing::TestWithParam<DeviceOptions> {
  protected:
-  static void expect_agreement(const BilateralFilter& filter, const RgbdFrame& frame) {
+  static void expect_agreement(const BilateralFilter& filter, const Frame& frame) {
     EXPECT_LT(difference(filtered(filter, frame, GetParam()), filter.filter_reference(frame.depth)), 5e-3);
   }
 };
@@ -70,7 +71,7 @@ TEST(Bilateral, TakesOutNoiseAndKeepsSteps) {
 }
 
 TEST(Bilateral, PixelsWithoutDepthTakeNoPart) {
-  RgbdFrame frame{DepthImage(40, 30, 800), {}, MaskImage(40, 30, 1)};
+  Frame frame{DepthImage(40, 30, 800), {}, MaskImage(40, 30, 1)};
   frame.depth(10, 10) = 0;
   frame.depth(12, 10) = std::nanf("");
   frame.depth(14, 10) = 790;
@@ -85,7 +86,7 @@ TEST(Bilateral, PixelsWithoutDepthTakeNoPart) {
 }
 
 TEST(Bilateral, GivesTheSameBitsTwice) {
-  const RgbdFrame frame = made_depth(kCamera);
+  const Frame frame = made_depth(kCamera);
   const BilateralFilter filter(4.5, 30, 6);
   EXPECT_EQ(filtered(filter, frame).pixels(), filtered(filter, frame).pixels());
 }
@@ -101,12 +102,13 @@ TEST(Bilateral, IsMadeByName) {
                              {{"sigma_space", 4.5}, {"sigma_depth", 30.0}, {"radius", std::int64_t{6}}});
   const auto filter = registry.make<DepthFilter>(bilateral)->filter(device, map, kCamera);
   ASSERT_TRUE(filter.has_value());
-  EXPECT_EQ(to_image(*filter).pixels(), filtered(BilateralFilter(4.5, 30, 6), made_depth(kCamera)).pixels());
+  EXPECT_EQ(to_image(*filter, kCamera).pixels(),
+            filtered(BilateralFilter(4.5, 30, 6), made_depth(kCamera)).pixels());
 }
 
 /// A gently curved wall with white noise.
 DepthMap noisy_wall(double sigma, const Camera& camera, double distance = 800) {
-  RgbdFrame frame;
+  Frame frame;
   frame.depth = DepthImage(camera.width, camera.height);
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise(0, sigma);
@@ -121,12 +123,12 @@ TEST(Noise, IsEstimatedWhateverTheShape) {
   for (const double sigma : {0.2, 1.0, 4.0})
     EXPECT_NEAR(estimate_noise(noisy_wall(sigma, kCamera)), sigma, 0.06 * sigma);
   EXPECT_LT(estimate_noise(noisy_wall(0, kCamera)), 0.005);
-  EXPECT_EQ(estimate_noise(DepthMap(RgbdFrame{DepthImage(20, 20), {}, {}})), 0) << "nothing is seen";
+  EXPECT_EQ(estimate_noise(DepthMap(Frame{DepthImage(20, 20), {}, {}})), 0) << "nothing is seen";
 }
 
 TEST(Noise, OfCoarseStepsIsTheirRounding) {
-  RgbdFrame steps{DepthImage(60, 40), {}, {}};
-  RgbdFrame boxes = steps;
+  Frame steps{DepthImage(60, 40), {}, {}};
+  Frame boxes = steps;
   for (int v = 0; v < 40; ++v)
     for (int u = 0; u < 60; ++u) {
       steps.depth(u, v) = 800.0F + 12.0F * static_cast<float>(u / 5);

@@ -31,37 +31,38 @@ struct Difference {
 
 class DeviceSurfaceMap : public testing::TestWithParam<DeviceOptions> {
  protected:
-  static Difference compare(const RgbdFrame& frame, int radius = default_normal_radius,
+  static Difference compare(const Frame& frame, int radius = default_normal_radius,
                             float depth_step = default_depth_step);
 };
 
 INSTANTIATE_TEST_SUITE_P(Shapes, DeviceSurfaceMap, testing::ValuesIn(test::device_shapes));
 
 /// How far the device's map lies from the reference's.
-Difference DeviceSurfaceMap::compare(const RgbdFrame& frame, int radius, float depth_step) {
+Difference DeviceSurfaceMap::compare(const Frame& frame, int radius, float depth_step) {
   Device device("any", GetParam());
   const SurfaceImage expected = make_surface_image(frame, kCamera, radius, depth_step);
-  const PointSet map = make_surface_map(device, DepthMap(frame), kCamera, radius, depth_step);
-  const auto points = unflatten(map.points);
-  const auto normals = unflatten(map.normals);
+  const SurfaceMap map = make_surface_map(device, DepthMap(frame), kCamera, radius, depth_step);
   Difference worst;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f& normal = expected.normals.pixels()[i];
-    worst.point = std::max<double>(worst.point, (points[i] - expected.points.pixels()[i]).norm());
-    const bool is_none = normals[i] == Eigen::Vector3f(0, 0, 0);
+  for (int i = 0; i < kCamera.width * kCamera.height; ++i) {
+    const Eigen::Vector2i pixel(i % kCamera.width, i / kCamera.width);
+    const Eigen::Vector3f point = finite_or_none(map, map.points(), pixel);
+    const Eigen::Vector3f made = finite_or_none(map, map.normals(), pixel);
+    const Eigen::Vector3f& normal = expected.normals(pixel.x(), pixel.y());
+    worst.point = std::max<double>(worst.point, (point - expected.points(pixel.x(), pixel.y())).norm());
+    const bool is_none = made == Eigen::Vector3f(0, 0, 0);
     if (is_none || normal.norm() == 0) {
       worst.validity += is_none && normal.norm() == 0 ? 0 : 1;
       continue;
     }
     ++worst.normals;
-    worst.angle = std::max(worst.angle, degrees_between(normal, normals[i]));
-    EXPECT_NEAR(normals[i].norm(), 1, 1e-5);
+    worst.angle = std::max(worst.angle, degrees_between(normal, made));
+    EXPECT_NEAR(made.norm(), 1, 1e-5);
   }
   return worst;
 }
 
 TEST(DepthMap, TakesFinitePositiveDepthInsideTheMask) {
-  RgbdFrame frame = made_depth(kCamera);
+  Frame frame = made_depth(kCamera);
   frame.depth(3, 1) = std::nanf("");
   frame.depth(4, 1) = std::numeric_limits<float>::infinity();
   frame.depth(5, 1) = -5;
@@ -70,25 +71,37 @@ TEST(DepthMap, TakesFinitePositiveDepthInsideTheMask) {
   const DepthMap map(frame);
   DepthImage expected = frame.depth;
   for (int u = 3; u <= 6; ++u) expected(u, 1) = 0;
-  EXPECT_EQ(to_image(map).pixels(), expected.pixels());
+  EXPECT_EQ(to_image(map, kCamera).pixels(), expected.pixels());
   std::vector<int> pixels;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    if (expected.pixels()[i] > 0) pixels.push_back(static_cast<int>(i));
-  }
+  for (int v = 0; v < kCamera.height; ++v)
+    for (int u = 0; u < kCamera.width; ++u)
+      if (expected(u, v) > 0) pixels.push_back(static_cast<int>(map.window.offset(u, v)));
   EXPECT_EQ(pixels_with_depth(map), pixels);
 }
 
+TEST(DepthMap, IsAsSmallAsWhatHasDepth) {
+  Frame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
+  frame.depth(40, 20) = frame.depth(31, 22) = frame.depth(35, 29) = 700;
+  EXPECT_EQ(DepthMap(frame).window, (PixelWindow{31, 20, 10, 10}));
+  frame.depth(kCamera.width - 1, kCamera.height - 1) = 700;
+  EXPECT_EQ(DepthMap(frame).window, (PixelWindow{31, 20, kCamera.width - 31, kCamera.height - 20}));
+  frame.mask = MaskImage(kCamera.width, kCamera.height);
+  frame.mask(35, 29) = 1;
+  EXPECT_EQ(DepthMap(frame).window, (PixelWindow{35, 29, 1, 1}));
+  EXPECT_EQ(to_image(DepthMap(frame), kCamera)(35, 29), 700);
+}
+
 TEST(DepthMap, RefusesAMaskOfAnotherSize) {
-  RgbdFrame frame = made_depth(kCamera);
+  Frame frame = made_depth(kCamera);
   frame.mask = MaskImage(2, 2, 1);
   EXPECT_THROW(DepthMap{frame}, std::invalid_argument);
 }
 
 TEST(DepthMap, MayBeEmpty) {
   Device device;
-  const DepthMap map{RgbdFrame{}};
+  const DepthMap map{Frame{}};
   EXPECT_TRUE(pixels_with_depth(map).empty());
-  EXPECT_TRUE(make_surface_map(device, map, Camera{1, 1, 0, 0, 0, 0}).points.empty());
+  EXPECT_TRUE(make_surface_map(device, map, Camera{1, 1, 0, 0, 0, 0}).points().empty());
 }
 
 TEST_P(DeviceSurfaceMap, AgreesWithTheReference) {
@@ -108,7 +121,7 @@ TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceForOtherWindows) {
 }
 
 TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceInsideAMask) {
-  RgbdFrame frame = made_depth(kCamera);
+  Frame frame = made_depth(kCamera);
   frame.mask = MaskImage(kCamera.width, kCamera.height);
   for (int v = 20; v < 60; ++v) {
     for (int u = 31; u < 77; ++u) frame.mask(u, v) = 255;
@@ -120,7 +133,7 @@ TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceInsideAMask) {
 }
 
 TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceOnASteepPlane) {
-  RgbdFrame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
+  Frame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
   for (int v = 0; v < kCamera.height; ++v) {
     for (int u = 0; u < kCamera.width; ++u) frame.depth(u, v) = static_cast<float>(1500 / (1 + 0.02 * u));
   }
@@ -130,7 +143,7 @@ TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceOnASteepPlane) {
 }
 
 TEST_P(DeviceSurfaceMap, TooFewOrCollinearNeighboursGiveNoNormal) {
-  RgbdFrame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
+  Frame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
   for (const auto& [u, v] : {std::pair(50, 50), {51, 50}, {50, 51}}) frame.depth(u, v) = 800;
   for (int u = 90; u < 100; ++u) frame.depth(u, 50) = static_cast<float>(800 + u);
   for (int i = 0; i < 10; ++i) frame.depth(120 + i, 50 + i) = 700;
@@ -142,7 +155,7 @@ TEST_P(DeviceSurfaceMap, TooFewOrCollinearNeighboursGiveNoNormal) {
 
 TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceWhereDepthIsSparse) {
   for (const int step : {2, 3, 4, 8, 9}) {
-    RgbdFrame frame = made_depth(kCamera);
+    Frame frame = made_depth(kCamera);
     for (int v = 0; v < kCamera.height; ++v) {
       for (int u = 0; u < kCamera.width; ++u) {
         // Dense at the left, single pixels in the middle, single rows at the right.
@@ -158,12 +171,12 @@ TEST_P(DeviceSurfaceMap, AgreesWithTheReferenceWhereDepthIsSparse) {
 }
 
 TEST_P(DeviceSurfaceMap, GivesTheSameBitsTwice) {
-  const RgbdFrame frame = made_depth(kCamera);
+  const Frame frame = made_depth(kCamera);
   Device first("any", GetParam()), second("any", GetParam());
-  const PointSet a = make_surface_map(first, DepthMap(frame), kCamera);
-  const PointSet b = make_surface_map(second, DepthMap(frame), kCamera);
-  EXPECT_EQ(a.points.host(), b.points.host());
-  EXPECT_EQ(a.normals.host(), b.normals.host());
+  const SurfaceMap a = make_surface_map(first, DepthMap(frame), kCamera);
+  const SurfaceMap b = make_surface_map(second, DepthMap(frame), kCamera);
+  EXPECT_EQ(a.points().host(), b.points().host());
+  EXPECT_EQ(a.normals().host(), b.normals().host());
 }
 
 TEST(PickPoints, MovesWhatItPicks) {

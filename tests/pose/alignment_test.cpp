@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <unordered_map>
 
 #include "framework/core/error.h"
 #include "framework/imaging/depth_map.h"
@@ -96,9 +97,13 @@ TEST(RigidRansac, SameSeedSameBits) {
 const Camera camera{300, 300, 159.5, 119.5, 320, 240};
 
 double lattice_value(std::int64_t x, std::int64_t y, std::uint64_t pattern) {
-  std::mt19937_64 random(pattern + 1000003 * static_cast<std::uint64_t>(x + 5000) +
-                         static_cast<std::uint64_t>(y + 5000));
-  return static_cast<double>(random() % 1000) / 1000;
+  const std::uint64_t seed =
+      pattern + 1000003 * static_cast<std::uint64_t>(x + 5000) + static_cast<std::uint64_t>(y + 5000);
+  // Every pixel asks for four of few: setting up a generator each time took most of the test.
+  static std::unordered_map<std::uint64_t, double> values;
+  const auto [value, is_new] = values.try_emplace(seed);
+  if (is_new) value->second = static_cast<double>(std::mt19937_64(seed)() % 1000) / 1000;
+  return value->second;
 }
 
 /// Smooth random brightness over the plane, in 0 .. 1; `x`, `y` and `cell` in mm.
@@ -114,10 +119,10 @@ double brightness(double x, double y, double cell, std::uint64_t pattern) {
   return (1 - s) * (1 - t) * at(0, 0) + s * (1 - t) * at(1, 0) + (1 - s) * t * at(0, 1) + s * t * at(1, 1);
 }
 
-RgbdFrame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
+Frame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
   const Eigen::Vector3d origin = motion * Eigen::Vector3d(0, 0, 800);
   const Eigen::Vector3d normal = motion.linear() * Eigen::Vector3d::UnitZ();
-  RgbdFrame frame{DepthImage(320, 240), ColorImage(320, 240), {}};
+  Frame frame{DepthImage(320, 240), ColorImage(320, 240), {}};
   for (int v = 0; v < 240; ++v) {
     for (int u = 0; u < 320; ++u) {
       const Eigen::Vector3d ray = camera.unproject(u, v, 1);
@@ -134,8 +139,8 @@ RgbdFrame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
 }
 
 FramePair moved_plane() {
-  static const FramePair pair{
-      "plane", camera, render_plane(Eigen::Isometry3d::Identity(), 11), render_plane(a_motion(), 11), {}};
+  static const FramePair pair{"plane", camera, render_plane(Eigen::Isometry3d::Identity(), 11),
+                              render_plane(a_motion(), 11)};
   return pair;
 }
 
@@ -143,8 +148,8 @@ AlignmentResult align(const Alignment& alignment, const FramePair& pair, std::ui
                       bool wants_features) {
   static Device device;  // its kernels are built once
   const DepthMap depth(pair.source);
-  const PointSet source = make_surface_map(device, depth, pair.camera);
-  const SurfaceMap target(pair.camera, make_surface_map(device, DepthMap(pair.target), pair.camera));
+  const SurfaceMap source = make_surface_map(device, depth, pair.camera);
+  const SurfaceMap target = make_surface_map(device, DepthMap(pair.target), pair.camera);
   return alignment.align(
       {pair, device, source, Array<int>(pixels_with_depth(depth)), target, seed, wants_features});
 }

@@ -30,8 +30,8 @@ double inside(const Eigen::Vector3d& p) {
          0.05 * std::sin(0.045 * p.y() + 0.04 * p.z());
 }
 
-RgbdFrame seen(const Eigen::Isometry3d& motion, const Camera& by = camera) {
-  RgbdFrame frame{DepthImage(by.width, by.height), {}, {}};
+Frame seen(const Eigen::Isometry3d& motion, const Camera& by = camera) {
+  Frame frame{DepthImage(by.width, by.height), {}, {}};
   const Eigen::Isometry3d back = Eigen::Translation3d(-middle) * motion.inverse();
   for (int v = 0; v < by.height; ++v) {
     for (int u = 0; u < by.width; ++u) {
@@ -57,19 +57,18 @@ Eigen::Isometry3d motion_of(double x, double y, double z, const Eigen::Vector3d&
 /// A depth image as ICP takes it.
 class View {
  public:
-  View(Device& device, const RgbdFrame& frame, const Camera& by = camera, int stride = 1)
-      : camera_(by), map_(make_surface_map(device, DepthMap(frame), by)) {
+  View(Device& device, const Frame& frame, const Camera& by = camera, int stride = 1)
+      : map_(make_surface_map(device, DepthMap(frame), by)) {
     std::vector<int> chosen;
     const std::vector<int> all = pixels_with_depth(DepthMap(frame));
     for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(stride)) chosen.push_back(all[i]);
     pixels_ = Array<int>(std::move(chosen));
   }
-  SeenSurface surface() const { return {camera_, map_.points, map_.normals, pixels_}; }
-  PointSet& map() { return map_; }
+  SeenSurface surface() const { return {map_, pixels_}; }
+  PointSet& map() { return map_.map; }
 
  private:
-  Camera camera_;
-  PointSet map_;
+  SurfaceMap map_;
   Array<int> pixels_;
 };
 
@@ -197,7 +196,7 @@ TEST_P(RigidIcpMatching, TakesNothingThatIsNotFinite) {
 
 // --- whole alignments ---
 
-RigidIcpResult align(const RgbdFrame& source, const RgbdFrame& target, const RigidIcpOptions& options = {},
+RigidIcpResult align(const Frame& source, const Frame& target, const RigidIcpOptions& options = {},
                      const Camera& by = camera) {
   static Device device;  // its kernels are built once
   return RigidIcp(device, options)
@@ -244,7 +243,7 @@ TEST(RigidIcp, FromTheStartAloneFindsWhatIsNear) {
 }
 
 TEST(RigidIcp, StaysWhereItIsRight) {
-  const RgbdFrame frame = seen(Eigen::Isometry3d::Identity());
+  const Frame frame = seen(Eigen::Isometry3d::Identity());
   const RigidIcpResult result = align(frame, frame);
   EXPECT_LT(difference(result.pose, Eigen::Isometry3d::Identity()), 0.01);
   EXPECT_LT(result.before.mean, 1e-5);
@@ -253,7 +252,7 @@ TEST(RigidIcp, StaysWhereItIsRight) {
 /// A bulge of 8 mm on a third of the object, as a puffed cheek.
 TEST(RigidIcp, APartThatDeformsDoesNotPullAtTheRest) {
   const auto turn = motion_of(0, 15, 0, {10, 0, 0});
-  RgbdFrame target = seen(turn);
+  Frame target = seen(turn);
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u)
       if (target.depth(u, v) > 0)
@@ -261,15 +260,15 @@ TEST(RigidIcp, APartThatDeformsDoesNotPullAtTheRest) {
             static_cast<float>(8 * std::exp(-std::pow((u - 100) / 15.0, 2) - std::pow((v - 70) / 20.0, 2)));
   RigidIcpOptions constant;
   constant.trim = 0;
-  const RgbdFrame source = seen(Eigen::Isometry3d::Identity());
+  const Frame source = seen(Eigen::Isometry3d::Identity());
   const double trimmed = difference(align(source, target).pose, turn);
   EXPECT_LT(trimmed, 1.5);
   EXPECT_LT(trimmed, 0.5 * difference(align(source, target, constant).pose, turn));
 }
 
 TEST(RigidIcp, FindsTheSameInEveryShapeOfItsKernels) {
-  const RgbdFrame source = seen(Eigen::Isometry3d::Identity());
-  const RgbdFrame target = seen(motion_of(20, 20, 0, {30, 20, 40}));
+  const Frame source = seen(Eigen::Isometry3d::Identity());
+  const Frame target = seen(motion_of(20, 20, 0, {30, 20, 40}));
   const RigidIcpResult expected = align(source, target);
   for (const DeviceOptions& shape : test::device_shapes) {
     Device device("any", shape);
@@ -283,8 +282,8 @@ TEST(RigidIcp, FindsTheSameInEveryShapeOfItsKernels) {
 }
 
 TEST(RigidIcp, SameBits) {
-  const RgbdFrame source = seen(Eigen::Isometry3d::Identity());
-  const RgbdFrame target = seen(motion_of(20, -20, 0, {30, 0, 0}));
+  const Frame source = seen(Eigen::Isometry3d::Identity());
+  const Frame target = seen(motion_of(20, -20, 0, {30, 0, 0}));
   Device first;
   Device second;
   RigidIcp icp(first, {});
@@ -306,8 +305,8 @@ TEST(RigidIcp, SameBits) {
 
 // --- where there is no answer ---
 
-RgbdFrame plane(double depth, int from, int to) {
-  RgbdFrame frame{DepthImage(camera.width, camera.height), {}, {}};
+Frame plane(double depth, int from, int to) {
+  Frame frame{DepthImage(camera.width, camera.height), {}, {}};
   for (int v = 20; v < 100; ++v)
     for (int u = from; u < to; ++u) frame.depth(u, v) = static_cast<float>(depth);
   return frame;
@@ -340,7 +339,7 @@ TEST(RigidIcp, OfAnEmptyTargetFails) {
 
 TEST(RigidIcp, OfAHandfulOfPointsIsAFailureOrFinite) {
   for (const int width : {1, 2, 3, 5}) {
-    RgbdFrame few{DepthImage(camera.width, camera.height), {}, {}};
+    Frame few{DepthImage(camera.width, camera.height), {}, {}};
     for (int u = 0; u < width; ++u) few.depth(70 + u, 60) = 600;
     const RigidIcpResult result = align(few, few);
     EXPECT_TRUE(result.failed || result.pose.matrix().allFinite());

@@ -173,21 +173,21 @@ TEST_F(ProblemTest, RefusesTermsWithoutTheirConstraints) {
 
 TEST_F(ProblemTest, RefusesArraysThatDoNotFitTogether) {
   const auto refused = testing::HasSubstr("do not fit together");
-  const Constraints good = *constraints_;
+  const Constraints good = copy_of(*constraints_);
   constraints_->data = Array<float>(std::vector<float>(5));
   EXPECT_THAT(error_of_constraints(), refused);
-  *constraints_ = good;
+  *constraints_ = copy_of(good);
   constraints_->confidence = Array<float>(std::vector<float>(2));
   EXPECT_THAT(error_of_constraints(), refused);
-  *constraints_ = good;
+  *constraints_ = copy_of(good);
   constraints_->points = Array<float>(std::vector<float>(4));
   EXPECT_THAT(error_of_constraints(), refused);
-  *constraints_ = good;
+  *constraints_ = copy_of(good);
   for (const int per_point : {1, 3, 0, -1}) {
     constraints_->influences.per_point = per_point;
     EXPECT_THAT(error_of_constraints(), refused) << per_point;
   }
-  *constraints_ = good;
+  *constraints_ = copy_of(good);
   EXPECT_EQ(error_of_constraints(), "");
 }
 

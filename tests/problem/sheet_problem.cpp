@@ -135,4 +135,12 @@ double distance_from_rotations(const std::vector<float>& forms) {
   return worst;
 }
 
+Constraints copy_of(const Constraints& constraints) {
+  const Influences& influences = constraints.influences;
+  return {constraints.points.clone(),
+          {influences.per_point, influences.nodes.clone(), influences.weights.clone()},
+          constraints.data.clone(),
+          constraints.confidence.clone()};
+}
+
 }  // namespace pliant::test

@@ -43,4 +43,7 @@ void turn_nodes(Problem& problem, double radians, double translation, unsigned s
 /// How far the matrices of affine forms are from rotations: the largest |R^T R - I| and |det R - 1|.
 double distance_from_rotations(const std::vector<float>& forms);
 
+/// Constraints that share nothing with others.
+Constraints copy_of(const Constraints& constraints);
+
 }  // namespace pliant::test

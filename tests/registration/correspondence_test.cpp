@@ -223,7 +223,7 @@ TEST(Match, IsDeniedNearWhereTheTargetEndsOrJumps) {
   SurfaceMap step = make_slope(0);
   for (int v = 0; v < camera.height; ++v)
     for (int u = 30; u < camera.width; ++u)
-      step.points.write_host()[static_cast<std::size_t>(3 * (v * camera.width + u) + 2)] +=
+      step.map.points.write_host()[static_cast<std::size_t>(3 * (v * camera.width + u) + 2)] +=
           170;  // 2 pixels: 160
   EXPECT_TRUE(found_at(step, 27));
   EXPECT_FALSE(found_at(step, 28));
@@ -249,7 +249,8 @@ Residual expect_agreement(Device& device, const ProjectiveCorrespondence& projec
   std::vector<float> per_point;
   projective.measure_reference(moved, target, per_point);
   const Residual expected = sum_residuals_reference(target, moved.points, per_point, cut);
-  const Residual measured = meter.measure(moved);
+  meter.measure(moved);
+  const Residual measured = meter.read();
   EXPECT_EQ(measured.matched, expected.matched);
   EXPECT_EQ(measured.landed, expected.landed);
   EXPECT_EQ(measured.lost, expected.lost);
@@ -268,6 +269,47 @@ TEST_P(Projective, MeasuresLikeItsReference) {
   EXPECT_GT(residual.landed, 300);
   EXPECT_GT(residual.matched, 50);
   EXPECT_LT(residual.matched, residual.landed);
+}
+
+// Where a map is kept only for a window, the rest of the image shows nothing.
+TEST_P(Projective, AWindowChangesNothing) {
+  std::mt19937 random(5);
+  SurfaceMap whole = make_target(random);
+  const PixelWindow window{9, 7, 24, 17};
+  std::vector<float> points, normals;
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t at = 3 * whole.window.offset(u, v) + axis;
+        if (window.contains(u, v)) {
+          points.push_back(whole.points().host()[at]);
+          normals.push_back(whole.normals().host()[at]);
+        } else {
+          whole.map.points.write_host()[at] = whole.map.normals.write_host()[at] = 0;
+        }
+      }
+  const SurfaceMap cropped(camera, window,
+                           {Array<float>(std::move(points)), Array<float>(std::move(normals))});
+  const PointSet moved = make_moved(random, 1111);
+  std::vector<int> all(1111);
+  std::iota(all.begin(), all.end(), 0);
+  const auto match = [&](const SurfaceMap& target) {
+    Constraints constraints;
+    constraints.points = moved.points.clone();
+    constraints.data = Array<float>(std::size_t{6 * 1111});
+    constraints.confidence = Array<float>(std::size_t{1111});
+    projective.match(device, moved, Array<int>(all), target, constraints);
+    return constraints;
+  };
+  const Constraints expected = match(whole);
+  const Constraints found = match(cropped);
+  EXPECT_EQ(found.confidence.host(), expected.confidence.host());
+  EXPECT_EQ(found.data.host(), expected.data.host());
+  EXPECT_TRUE(any_in_force(device, expected));
+  const Residual a = expect_agreement(device, projective, whole, moved);
+  const Residual b = expect_agreement(device, projective, cropped, moved);
+  EXPECT_EQ(a.robust, b.robust);
+  EXPECT_EQ(a.landed, b.landed);
 }
 
 // A residual of what no constraint follows would ask for nodes where they can do nothing.
@@ -296,7 +338,7 @@ TEST(ResidualMeter, KnowsNothingWhereTheMatchIsRejected) {
 /// What is not finite in a target that was made by hand.
 void spoil(SurfaceMap& target, std::mt19937& random) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  for (auto* vectors : {&target.points, &target.normals})
+  for (auto* vectors : {&target.map.points, &target.map.normals})
     for (float& value : vectors->write_host())
       if (random() % 10 == 0) value = random() % 2 == 0 ? infinity : std::numeric_limits<float>::quiet_NaN();
 }
@@ -325,7 +367,10 @@ TEST(ProjectiveCorrespondence, TakesNothingFromTheTargetThatIsNotFinite) {
   found.points = Array<float>(moved.points.host());
   found.data = Array<float>(std::vector<float>(6 * 500));
   found.confidence = Array<float>(std::vector<float>(500));
-  Constraints expected = found;
+  Constraints expected;
+  expected.points = found.points.clone();
+  expected.data = found.data.clone();
+  expected.confidence = found.confidence.clone();
   for (const int radius : {0, 3}) {
     const ProjectiveCorrespondence correspondence(limits(1e4, 1.5, radius));
     correspondence.match(device, moved, selected, target, found);
@@ -375,8 +420,8 @@ TEST(ResidualMeter, IsZeroWhereNothingLands) {
   const SurfaceMap target = make_target(random);
   const ProjectiveCorrespondence projective(limits(1000, 1));
   ResidualMeter meter(device, projective, target, 1, cut);
-  const Residual residual =
-      meter.measure({Array<float>(std::vector<float>{0, 0, -10}), Array<float>(std::vector<float>{0, 0, 0})});
+  meter.measure({Array<float>(std::vector<float>{0, 0, -10}), Array<float>(std::vector<float>{0, 0, 0})});
+  const Residual residual = meter.read();
   EXPECT_EQ(residual.landed, 0);
   EXPECT_EQ(residual.mean, 0);
   EXPECT_EQ(residual.robust, cut);

@@ -34,6 +34,14 @@ class HardInputTest : public ExperimentFiles {
   }
   FramePair sheet() { return workbench_.pair(plan("").runs[0].values); }
 
+  /// Mean end-point error over that of no motion, of a sheet that lacks some of its depth.
+  double share_of_error_left(const FramePair& pair, const RegistrationResult& result) {
+    const Evaluation evaluation(pair, workbench_.truth(plan("").runs[0].values), result.source,
+                                make_surface_image(pair.target, pair.camera));
+    return evaluation.measure(result.points).truth.value().epe_mean /
+           evaluation.measure(result.source.points).truth.value().epe_mean;
+  }
+
   RegistrationResult register_with(const FramePair& pair, const Method& method) {
     auto result = register_pair(pair, method, device_, 1);
     expect_finite(result);
@@ -207,14 +215,14 @@ class Vanishing : public Selection {
 };
 
 class VanishingSampler : public ConstraintSampler {
-  std::unique_ptr<PointSelection> select(Device&, const Surface& source, const Camera&) const override {
-    return std::make_unique<Vanishing<PointSelection>>(points_on_grid(source, 4));
+  std::unique_ptr<PointSelection> select(Device&, const SurfaceView& source) const override {
+    return std::make_unique<Vanishing<PointSelection>>(points_on_grid(source.pixels, 4));
   }
 };
 
 class VanishingGraph : public GraphBuilder {
-  std::unique_ptr<NodeSelection> select_nodes(Device&, const Surface& source, const Camera&) const override {
-    return std::make_unique<Vanishing<NodeSelection>>(points_on_grid(source, 12));
+  std::unique_ptr<NodeSelection> select_nodes(Device&, const SurfaceView& source) const override {
+    return std::make_unique<Vanishing<NodeSelection>>(points_on_grid(source.pixels, 12));
   }
 };
 
@@ -443,13 +451,6 @@ void keep(DepthImage& depth, const std::function<bool(int, int)>& is_kept) {
   for (int v = 0; v < depth.height(); ++v)
     for (int u = 0; u < depth.width(); ++u)
       if (!is_kept(u, v)) depth(u, v) = 0;
-}
-
-/// Mean end-point error over that of no motion.
-double share_of_error_left(const FramePair& pair, const RegistrationResult& result) {
-  const Evaluation evaluation(pair, result.source, make_surface_image(pair.target, pair.camera));
-  return evaluation.measure(result.points).truth.value().epe_mean /
-         evaluation.measure(result.source.points).truth.value().epe_mean;
 }
 
 TEST_F(HardInputTest, SparseAndStripedSourcesAreRegistered) {

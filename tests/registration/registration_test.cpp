@@ -36,6 +36,9 @@ class RegistrationTest : public ExperimentFiles {
     return make_method(values_of(sets), registry_);
   }
   FramePair pair_of(const std::vector<std::string>& sets) { return workbench_.pair(values_of(sets)); }
+  std::optional<PairTruth> truth_of(const std::vector<std::string>& sets) {
+    return workbench_.truth(values_of(sets));
+  }
 
   RegistrationResult register_sheet(const std::vector<std::string>& sets) {
     return register_pair(pair_of(sets), method_of(sets), device_, 1);
@@ -45,12 +48,14 @@ class RegistrationTest : public ExperimentFiles {
 };
 
 Metrics measure(const FramePair& pair, const RegistrationResult& result,
-                const std::vector<Eigen::Vector3f>& points) {
-  return Evaluation(pair, result.source, make_surface_image(pair.target, pair.camera)).measure(points);
+                const std::vector<Eigen::Vector3f>& points,
+                const std::optional<PairTruth>& truth = std::nullopt) {
+  return Evaluation(pair, truth, result.source, make_surface_image(pair.target, pair.camera)).measure(points);
 }
 
-double end_point_error(const FramePair& pair, const RegistrationResult& result) {
-  return measure(pair, result, result.points).truth.value().epe_mean;
+double end_point_error(const FramePair& pair, const RegistrationResult& result,
+                       const std::optional<PairTruth>& truth) {
+  return measure(pair, result, result.points, truth).truth.value().epe_mean;
 }
 
 TEST_F(RegistrationTest, EndsAsSoonAsTheResidualIsBelow) {
@@ -108,7 +113,7 @@ TEST_F(RegistrationTest, AnObserverSeesEachIteration) {
       residuals.push_back(view.measured.residual_mean);
       EXPECT_EQ(view.number, static_cast<int>(residuals.size()));
       EXPECT_EQ(view.is_last, view.number == 3);
-      const std::size_t followed = graph == "uniform" ? view.constraints.size() : scene.source.size();
+      const std::size_t followed = graph == "uniform" ? view.constraints.size() : scene.pixels.count;
       EXPECT_EQ(view.points.points.size(), 3 * followed);
       double sum = 0;
       int matched = 0;
@@ -168,8 +173,8 @@ TEST_F(RegistrationTest, BringsTheSheetWhereItTrulyWent) {
   const std::vector<std::string> sets{"energies.point_to_plane={weight: 100}"};
   const FramePair pair = pair_of(sets);
   const RegistrationResult result = register_sheet(sets);
-  const Metrics before = measure(pair, result, result.aligned_points);
-  const Metrics after = measure(pair, result, result.points);
+  const Metrics before = measure(pair, result, result.aligned_points, truth_of(sets));
+  const Metrics after = measure(pair, result, result.points, truth_of(sets));
   EXPECT_LT(after.residual_mean, 0.2 * before.residual_mean);
   EXPECT_LT(after.truth.value().epe_mean, 0.3 * before.truth.value().epe_mean);
   EXPECT_LT(result.energy.final, result.energy.initial);
@@ -331,8 +336,9 @@ TEST_F(RegistrationTest, TheBestMethodBearsATargetWhoseLeftFifthIsMissing) {
   FramePair pair = workbench_.pair(runs[0].values);
   cut_off(pair, 0.2);
   const RegistrationResult result = register_pair(pair, make_method(runs[0].values, registry_), device_, 1);
-  const Metrics::Truth before = measure(pair, result, result.source.points).truth.value();
-  const Metrics::Truth after = measure(pair, result, result.points).truth.value();
+  const auto truth = workbench_.truth(runs[0].values);
+  const Metrics::Truth before = measure(pair, result, result.source.points, truth).truth.value();
+  const Metrics::Truth after = measure(pair, result, result.points, truth).truth.value();
   EXPECT_GT(before.hidden_share, 0.1);
   EXPECT_LT(after.epe_seen_mean, 0.6 * before.epe_seen_mean)
       << "the sheet slides, and so small it has no texture";
@@ -439,8 +445,8 @@ TEST_F(RegistrationTest, AnAdaptedGraphStartsWhereTheOneBeforeEnded) {
 /// Nodes on one grid or the next, whichever was not there before.
 class RestlessNodes : public NodeSelection {
  public:
-  explicit RestlessNodes(const Surface& source)
-      : points_(points_on_grid(source, 9)), others_(points_on_grid(source, 10)) {}
+  explicit RestlessNodes(const PixelIndex& pixels)
+      : points_(points_on_grid(pixels, 9)), others_(points_on_grid(pixels, 10)) {}
   const std::vector<int>& points() const override { return points_; }
   bool adapt(Device&, const Array<float>&) override {
     std::swap(points_, others_);
@@ -452,8 +458,8 @@ class RestlessNodes : public NodeSelection {
 };
 
 class RestlessGraph : public GraphBuilder {
-  std::unique_ptr<NodeSelection> select_nodes(Device&, const Surface& source, const Camera&) const override {
-    return std::make_unique<RestlessNodes>(source);
+  std::unique_ptr<NodeSelection> select_nodes(Device&, const SurfaceView& source) const override {
+    return std::make_unique<RestlessNodes>(source.pixels);
   }
 };
 
@@ -536,8 +542,9 @@ TEST_F(RegistrationTest, RigidNodesBringTheSheetWhereItTrulyWent) {
     method.solver = std::make_unique<WatchedSolver>(std::move(method.solver), bindings);
     const RegistrationResult result = register_pair(pair, method, device_, 1);
     EXPECT_EQ(result.counts.unknowns, 6 * result.counts.nodes);
-    EXPECT_LT(end_point_error(pair, result),
-              0.3 * measure(pair, result, result.aligned_points).truth.value().epe_mean);
+    const auto truth = truth_of(sets);
+    EXPECT_LT(end_point_error(pair, result, truth),
+              0.3 * measure(pair, result, result.aligned_points, truth).truth.value().epe_mean);
     for (const Binding& binding : bindings) EXPECT_LT(test::distance_from_rotations(binding.end), 3e-6);
     const RegistrationResult again = register_sheet(sets);
     EXPECT_EQ(again.points, result.points) << "the same bits";
@@ -565,7 +572,8 @@ TEST_F(RegistrationTest, AFilterSmoothsWhatIsRegisteredAndNotWhatIsReturned) {
   EXPECT_EQ(without.aligned_points, without.source.points) << "no alignment, no filter";
   EXPECT_EQ(with.aligned_points, with.source.points);
   EXPECT_NE(with.points, without.points);
-  EXPECT_LT(end_point_error(pair, with), 0.7 * end_point_error(pair, without));
+  const auto truth = truth_of(noisy);
+  EXPECT_LT(end_point_error(pair, with, truth), 0.7 * end_point_error(pair, without, truth));
 }
 
 // --- features ---
@@ -611,7 +619,8 @@ TEST_F(RegistrationTest, FeaturesPullWhereDepthCannotTell) {
   const RegistrationResult without = register_sheet(plain);
   const RegistrationResult with = register_sheet(more);
   EXPECT_GT(with.alignment.features.size(), 20U);
-  EXPECT_LT(end_point_error(pair, with), 0.8 * end_point_error(pair, without));
+  const auto truth = truth_of(plain);
+  EXPECT_LT(end_point_error(pair, with, truth), 0.8 * end_point_error(pair, without, truth));
 }
 
 }  // namespace

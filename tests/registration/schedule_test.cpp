@@ -63,7 +63,7 @@ class ScheduledRegistration : public ExperimentFiles {
   }
 
   double residual(const RegistrationResult& result, const std::vector<Eigen::Vector3f>& points) const {
-    return Evaluation(pair_, result.source, make_surface_image(pair_.target, pair_.camera))
+    return Evaluation(pair_, std::nullopt, result.source, make_surface_image(pair_.target, pair_.camera))
         .measure(points)
         .residual_mean;
   }

@@ -9,7 +9,7 @@ namespace pliant {
 namespace {
 
 Surface plane() {
-  RgbdFrame frame;
+  Frame frame;
   frame.depth = DepthImage(40, 30, 800);
   for (int v = 0; v < 30; ++v) frame.depth(10, v) = 0;
   return make_surface(make_surface_image(frame, {50, 50, 19.5, 14.5, 40, 30}), {});

@@ -8,6 +8,7 @@
 
 #include "framework/geometry/pixel_index.h"
 #include "tests/geometry/holey_surface.h"
+#include "tests/geometry/viewed_surface.h"
 
 namespace pliant {
 namespace {
@@ -36,7 +37,7 @@ std::map<std::pair<int, int>, Mask> masks_of(const Surface& surface, int step) {
 /// Which places of a full mask the case in the middle takes, as the selection itself shows them.
 std::set<std::pair<int, int>> spread_places(Device& device, int step) {
   const Surface mask = square(step);
-  const auto samples = AdaptiveSampler(step, threshold, false).select(device, mask, Camera{});
+  const auto samples = AdaptiveSampler(step, threshold, false).select(device, ViewedSurface(mask));
   samples->adapt(device, Array<float>(std::vector<float>(mask.size(), 1.5F)));
   std::set<std::pair<int, int>> places;
   for (const int point : samples->points()) {
@@ -50,7 +51,7 @@ std::set<std::pair<int, int>> spread_places(Device& device, int step) {
 std::vector<int> select_reference(const Surface& surface, int step, const std::vector<float>& residuals,
                                   const std::set<std::pair<int, int>>& spread) {
   std::vector<int> selected;
-  const std::vector<int> centres = points_on_grid(surface, step);
+  const std::vector<int> centres = points_on_grid(index_pixels(surface), step);
   for (const auto& [place, mask] : masks_of(surface, step)) {
     double sum = 0;
     int known = 0;
@@ -75,7 +76,7 @@ std::vector<int> select_reference(const Surface& surface, int step, const std::v
 class AdaptiveSamplerTest : public testing::Test {
  protected:
   std::unique_ptr<PointSelection> select(const Surface& surface, int step) {
-    return AdaptiveSampler(step, threshold, false).select(device_, surface, Camera{});
+    return AdaptiveSampler(step, threshold, false).select(device_, ViewedSurface(surface));
   }
 
   std::size_t count_after(const Surface& surface, int step, float residual) {
@@ -89,7 +90,7 @@ class AdaptiveSamplerTest : public testing::Test {
 
 TEST_F(AdaptiveSamplerTest, IsUniformAtFirst) {
   const Surface surface = holey_surface(96, 70, 1);
-  EXPECT_EQ(select(surface, 4)->points(), points_on_grid(surface, 4));
+  EXPECT_EQ(select(surface, 4)->points(), points_on_grid(index_pixels(surface), 4));
 }
 
 TEST_F(AdaptiveSamplerTest, TakesAllPointsOfAMaskOrAsManyAsItIsWideOrItsCentre) {
@@ -106,7 +107,7 @@ TEST_F(AdaptiveSamplerTest, TakesTheCentreWhereNoResidualIsKnown) {
   samples->adapt(device_, Array<float>(std::vector<float>(surface.size(), 9)));
   EXPECT_EQ(samples->points().size(), surface.size());
   EXPECT_TRUE(samples->adapt(device_, Array<float>(std::vector<float>(surface.size(), -1))));
-  EXPECT_EQ(samples->points(), points_on_grid(surface, 4));
+  EXPECT_EQ(samples->points(), points_on_grid(index_pixels(surface), 4));
 }
 
 TEST_F(AdaptiveSamplerTest, LooksAtTheResidualsThatAreKnownOnly) {
@@ -170,7 +171,7 @@ TEST_F(AdaptiveSamplerTest, ConstraintsWeighTheSameUnlessMasksDo) {
 
 TEST_F(AdaptiveSamplerTest, TheConstraintsOfAMaskWeighOneTogetherWhereMasksAreEqual) {
   const Surface surface = holey_surface(96, 70, 2);
-  const auto samples = AdaptiveSampler(4, threshold, true).select(device_, surface, Camera{});
+  const auto samples = AdaptiveSampler(4, threshold, true).select(device_, ViewedSurface(surface));
   EXPECT_THAT(samples->weights(), testing::IsEmpty());  // one a mask at first
   for (unsigned seed = 1; seed <= 3; ++seed) {
     samples->adapt(device_, Array<float>(patchy_residuals(surface, seed)));

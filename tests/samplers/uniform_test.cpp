@@ -7,6 +7,7 @@
 #include "framework/geometry/pixel_index.h"
 #include "framework/registration/sampler.h"
 #include "tests/geometry/holey_surface.h"
+#include "tests/geometry/viewed_surface.h"
 
 namespace pliant {
 namespace {
@@ -17,8 +18,8 @@ TEST(UniformSampler, TakesTheCentreOfEachMaskAndKeepsIt) {
   const auto sampler = registry.make<ConstraintSampler>(Parameters("uniform", {{"step", std::int64_t{5}}}));
   const Surface surface = holey_surface(96, 70, 1);
   Device device;
-  const auto samples = sampler->select(device, surface, Camera{});
-  const std::vector<int> expected = points_on_grid(surface, 5);
+  const auto samples = sampler->select(device, ViewedSurface(surface));
+  const std::vector<int> expected = points_on_grid(index_pixels(surface), 5);
   EXPECT_FALSE(expected.empty());
   EXPECT_EQ(samples->points(), expected);
   EXPECT_FALSE(samples->adapt(device, Array<float>(patchy_residuals(surface, 1))));
@@ -33,14 +34,15 @@ TEST(UniformSampler, ComesNearAWishedNumberWhateverTheResolution) {
   Device device;
   for (const int scale : {1, 2, 3}) {
     const Surface surface = holey_surface(96 * scale, 70 * scale, 1);
-    const auto count = sampler->select(device, surface, Camera{})->points().size();
+    const auto count = sampler->select(device, ViewedSurface(surface))->points().size();
     EXPECT_GT(count, 110U) << scale;
     EXPECT_LT(count, 200U) << scale;
   }
   const auto by_step = registry.make<ConstraintSampler>(
       Parameters("uniform", {{"step", std::int64_t{5}}, {"points", std::int64_t{150}}}));
   const Surface surface = holey_surface(96, 70, 1);
-  EXPECT_EQ(by_step->select(device, surface, Camera{})->points(), points_on_grid(surface, 5));
+  EXPECT_EQ(by_step->select(device, ViewedSurface(surface))->points(),
+            points_on_grid(index_pixels(surface), 5));
 }
 
 }  // namespace

@@ -10,12 +10,12 @@ namespace {
 class Agreement : public SolverTest {
  protected:
   void expect_same_minimum(Problem problem) {
-    const auto start = problem.unknowns();
+    const auto start = problem.unknowns().clone();
     const double before = problem.energy();
     std::optional<double> minimum;
     for (const auto& yaml : all_solvers()) {
       SCOPED_TRACE(yaml);
-      problem.unknowns() = start;
+      problem.unknowns() = start.clone();
       const auto summary = solve(problem, yaml);
       const double after = problem.energy();
       EXPECT_EQ(summary.termination, "converged");

@@ -18,7 +18,7 @@ struct Outliers {
 
 /// Every tenth match is carried off by 60 to 200 mm in any direction; it may name any normal.
 Outliers spoil(const Constraints& clean) {
-  Outliers outliers{std::make_shared<Constraints>(clean), {}};
+  Outliers outliers{std::make_shared<Constraints>(copy_of(clean)), {}};
   for (std::size_t i = 0; i < clean.size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) outliers.truth.push_back(clean.data.host()[6 * i + axis]);
   std::mt19937 random(9);
@@ -55,7 +55,7 @@ class RobustLoss : public SolverTest, public testing::WithParamInterface<std::st
 
   /// Unknowns near the truth: those of the clean sheet bent by nine tenths.
   Array<float> near_start() {
-    auto clean = std::make_shared<Constraints>(*outliers_.constraints);
+    auto clean = std::make_shared<Constraints>(copy_of(*outliers_.constraints));
     auto& data = clean->data.write_host();
     for (std::size_t i = 0; i < clean->size(); ++i)
       for (std::size_t axis = 0; axis < 3; ++axis) data[6 * i + axis] = 0.9F * outliers_.truth[3 * i + axis];
@@ -63,13 +63,13 @@ class RobustLoss : public SolverTest, public testing::WithParamInterface<std::st
     energies.pop_back();
     Problem problem(graph_, make_terms(energies, clean));
     solve(problem, "{type: ceres_lm}");
-    return problem.unknowns();
+    return problem.unknowns().clone();
   }
 
   /// Mean distance, mm, between where points go and where they should.
   double error(const Problem& problem) const {
     const auto& points = outliers_.constraints->points;
-    const PointSet rest{points, Array<float>(std::vector<float>(points.size(), 0))};
+    const PointSet rest{points.clone(), Array<float>(std::vector<float>(points.size(), 0))};
     const auto moved =
         warp_reference(rest, outliers_.constraints->influences, problem.node_points(), problem.unknowns());
     double sum = 0;
@@ -99,7 +99,7 @@ std::vector<std::string> device_solvers(const Registry& registry) {
 TEST_P(RobustLoss, EverySolverEndsAtTheMinimumOfCeres) {
   const auto start = near_start();
   auto reference = problem(GetParam());
-  reference.unknowns() = start;
+  reference.unknowns() = start.clone();
   const double before = reference.energy();
   EXPECT_EQ(solve(reference, "{type: ceres_lm, tolerance: 1e-12, max_iterations: 500}").termination,
             "converged");
@@ -110,7 +110,7 @@ TEST_P(RobustLoss, EverySolverEndsAtTheMinimumOfCeres) {
   for (const auto& yaml : solvers) {
     SCOPED_TRACE(yaml);
     auto own = problem(GetParam());
-    own.unknowns() = start;
+    own.unknowns() = start.clone();
     const auto summary = solve(own, yaml);
     EXPECT_EQ(summary.termination, "converged");
     EXPECT_NEAR(own.energy(), minimum, 1e-4 * minimum);
@@ -128,8 +128,8 @@ TEST_P(OutlierTest, PullsLessThanTheSquare) {
   const auto solver = device_solvers(registry_).front();
   auto square = problem("none");
   auto robust = problem(GetParam());
-  square.unknowns() = start;
-  robust.unknowns() = start;
+  square.unknowns() = start.clone();
+  robust.unknowns() = start.clone();
   solve(square, solver);
   solve(robust, solver);
   EXPECT_GT(error(square), 5);

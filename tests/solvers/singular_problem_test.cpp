@@ -22,12 +22,12 @@ class SingularProblem : public SolverTest {
 
   /// Solves with all; the solutions are finite and equally good.
   void expect_solved(Problem& problem) {
-    const Array<float> start = problem.unknowns();
+    const Array<float> start = problem.unknowns().clone();
     const double before = problem.energy();
     std::vector<double> ends;
     for (const char* solver : kSolvers) {
       SCOPED_TRACE(solver);
-      problem.unknowns() = start;
+      problem.unknowns() = start.clone();
       const auto summary = solve(problem, solver);
       EXPECT_EQ(summary.termination, "converged");
       EXPECT_TRUE(all_finite(problem.unknowns().host()));

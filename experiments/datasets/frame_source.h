@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "framework/evaluation/truth.h"
+#include "framework/geometry/frame_stream.h"
+
+namespace pliant {
+
+/// A stream of an experiment's data. Its truth is asked for apart, by who measures results, and never goes
+/// with the frames.
+class DataStream : public FrameStream {
+ public:
+  /// What is known of the pair of the first frame and frame `number` (the first is 1), whether they were read
+  /// or not; nothing where nothing is known.
+  virtual std::optional<PairTruth> truth(int number) const = 0;
+};
+
+/// Where an experiment's frames come from.
+class FrameSource {
+ public:
+  static constexpr const char* kind = "data";
+  virtual ~FrameSource() = default;
+  /// A stream from the first frame on; it may outlive the source. Every stream opened with one seed gives the
+  /// same bits. Throws DataError naming the file at fault.
+  virtual std::unique_ptr<DataStream> open(std::uint64_t seed) const = 0;
+};
+
+}  // namespace pliant

@@ -1,0 +1,35 @@
+#include "framework/registration/history.h"
+
+#include <cmath>
+#include <utility>
+
+namespace pliant {
+
+void History::add(const Residual& residual, const std::shared_ptr<const EmbeddedGraph>& graph,
+                  const Array<float>& unknowns) {
+  const std::size_t iteration = steps_.size();
+  steps_.push_back({residual.mean, residual.robust, residual.matched});
+  const double enough = (1 - rule_.min_gain) * steps_.front().robust;
+  const auto keep_if_better = [&](State& best) {
+    const bool is_better = residual.robust < enough && residual.robust < steps_[best.iteration].robust;
+    if (iteration == 0 || is_better) best = {iteration, graph, unknowns.clone()};
+  };
+  keep_if_better(best_of_all_);
+  if (iteration == 0 || is_after_schedule(iteration)) keep_if_better(best_);
+}
+
+bool History::is_stuck() const {
+  const auto last = steps_.rbegin();
+  const double now = last->residual_mean;
+  const auto is_near = [&](const Step& earlier) {
+    return std::abs(earlier.residual_mean - now) < rule_.min_progress * earlier.residual_mean;
+  };
+  return is_near(last[1]) || (steps_.size() > 2 && now < last[1].residual_mean && is_near(last[2]));
+}
+
+void History::end_at(std::size_t iteration) {
+  steps_.resize(iteration + 1);
+  if (!is_after_schedule(iteration)) best_ = std::move(best_of_all_);
+}
+
+}  // namespace pliant
