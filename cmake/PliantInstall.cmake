@@ -14,7 +14,7 @@ endif()
 install(EXPORT PliantTargets NAMESPACE Pliant:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pliant)
 install(DIRECTORY framework energies graphs samplers solvers
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY experiments/datasets experiments/report experiments/runner
+install(DIRECTORY experiments/datasets experiments/report experiments/tasks experiments/runner
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pliant/experiments FILES_MATCHING PATTERN "*.h")
 set(PLIANT_EXPERIMENTS ${CMAKE_INSTALL_DATADIR}/pliant/experiments)
 file(GLOB EXPERIMENTS CONFIGURE_DEPENDS experiments/*.yaml)

@@ -2,7 +2,7 @@
 
 #include "experiments/runner/components.h"
 #include "experiments/runner/experiment.h"
-#include "experiments/runner/workbench.h"
+#include "experiments/tasks/workbench.h"
 #include "framework/tracking/register_pair.h"
 
 // Registers the pair of an experiment file and prints how far the first points went; fails when they did not.
