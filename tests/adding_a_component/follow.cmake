@@ -1,6 +1,7 @@
 # Does what docs/adding-a-component.md tells its reader to do, to copies of the rooms `energies`,
-# `experiments/datasets` and `experiments/report`, and runs the tests there. Variables: SOURCE (the project), WORK (a folder to work in),
-# ROOMS (the exported libraries) and CONFIGURE (arguments for configuring, separated by |).
+# `framework/pose`, `experiments/datasets` and `experiments/report`, and runs the tests there. Variables: SOURCE
+# (the project), WORK (a folder to work in), ROOMS (the exported libraries) and CONFIGURE (arguments for
+# configuring, separated by |).
 cmake_minimum_required(VERSION 3.25)
 file(READ ${SOURCE}/docs/adding-a-component.md DOCUMENT)
 
@@ -48,6 +49,7 @@ endfunction()
 set(TREE ${WORK}/tree)
 file(REMOVE_RECURSE ${TREE})
 file(COPY ${SOURCE}/energies ${SOURCE}/cmake DESTINATION ${TREE})
+file(COPY ${SOURCE}/framework/pose DESTINATION ${TREE}/framework)
 file(COPY ${SOURCE}/experiments/datasets ${SOURCE}/experiments/report DESTINATION ${TREE}/experiments)
 file(COPY ${SOURCE}/tests/adding_a_component/project/CMakeLists.txt DESTINATION ${TREE})
 
@@ -78,9 +80,22 @@ add_to(experiments/report/reports.h "#define PLIANT_REPORTS(REPORT)"
 code_block("Among the reports of an experiment" yaml EXPERIMENT)
 file(WRITE ${WORK}/reports.yaml "${EXPERIMENT}")
 
+set(ROOM framework/pose)
+write_example(${ROOM}/align_centroids.h align_centroids/align_centroids.h)
+write_example(${ROOM}/align_centroids.cpp align_centroids/align_centroids.cpp)
+add_to(${ROOM}/CMakeLists.txt "SOURCES" "In `${ROOM}/CMakeLists.txt`, behind `SOURCES`" cmake)
+set(SEPARATOR "\n")
+add_to(${ROOM}/alignments.cpp "#include \"framework/pose/alignments.h\""
+  "In `${ROOM}/alignments.cpp`, with the other includes" cpp)
+add_to(${ROOM}/alignments.cpp "void register_alignments(Registry& registry) {"
+  "In `${ROOM}/alignments.cpp`, in `register_alignments`" cpp)
+code_block("As the alignment of an experiment" yaml EXPERIMENT)
+file(WRITE ${WORK}/pose.yaml "${EXPERIMENT}")
+
 string(REPLACE "|" ";" CONFIGURE "${CONFIGURE}")
 run(${CMAKE_COMMAND} -S ${TREE} -B ${WORK}/build ${CONFIGURE} -DPLIANT_ROOMS=${ROOMS} -DPLIANT_SOURCE=${SOURCE})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 run(${CMAKE_COMMAND} -E env PLIANT_EXAMPLE=${WORK}/experiment.yaml ${WORK}/build/follow)
 run(${CMAKE_COMMAND} -E env PLIANT_FRAMES_EXAMPLE=${WORK}/frames.yaml ${WORK}/build/follow_frames)
 run(${CMAKE_COMMAND} -E env PLIANT_REPORT_EXAMPLE=${WORK}/reports.yaml ${WORK}/build/follow_report)
+run(${CMAKE_COMMAND} -E env PLIANT_POSE_EXAMPLE=${WORK}/pose.yaml ${WORK}/build/follow_pose)
