@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "experiments/report/heat_map.h"
@@ -106,6 +107,16 @@ Series residual_series(const RegistrationResult& result) {
   return series;
 }
 
+/// Adds what the adaptive parts chose; what stayed the same needs no plot.
+void add_growth(const GraphGrowth& growth, std::vector<Series>& series) {
+  const auto add = [&](const std::string& title, const std::string& value, const std::vector<double>& sizes) {
+    const bool varies = std::adjacent_find(sizes.begin(), sizes.end(), std::not_equal_to<>()) != sizes.end();
+    if (varies) series.push_back({title, "outer iteration", value, sizes});
+  };
+  add("Graph", "nodes", growth.nodes);
+  add("Constraints", "constrained points", growth.constraints);
+}
+
 Image<float> target_depth(const SurfaceImage& target) {
   Image<float> image(target.points.width(), target.points.height(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < image.size(); ++i) {
@@ -174,7 +185,8 @@ std::vector<NamedSurface> surfaces(const RegistrationResult& result, const Surfa
 
 RunArtefacts registration_artefacts(const ExperimentRun& run, const FramePair& pair,
                                     const SurfaceImage& target, const RegistrationResult& result,
-                                    const Measured& measured, const Timing& timing) {
+                                    const Measured& measured, const GraphGrowth& growth,
+                                    const Timing& timing) {
   RunArtefacts made{{run.name, run_json(run.name, result, measured, timing),
                      summary(run.name, result, measured, timing),
                      notes_of(ending(result), result.warnings, timing)}};
@@ -184,6 +196,7 @@ RunArtefacts registration_artefacts(const ExperimentRun& run, const FramePair& p
   made.lead = "Non-rigid registration of " + pair.name;
   made.tables = {metrics_table(measured), counts_table(result.counts), method_table(result), timing.table()};
   made.series = {energy_series(result.energy, "outer iteration"), residual_series(result)};
+  add_growth(growth, made.series);
   made.pictures = pictures(result, pair.camera, target, measured);
   made.surfaces = surfaces(result, make_surface(target, pair.target.color), measured);
   return made;

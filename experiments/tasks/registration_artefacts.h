@@ -9,9 +9,16 @@
 
 namespace pliant {
 
+/// How large the graph and the constraints were before the first outer iteration and in each.
+struct GraphGrowth {
+  std::vector<double> nodes;
+  std::vector<double> constraints;
+};
+
 /// What the registration of a pair came to. `target`: the points of the pair's target.
 RunArtefacts registration_artefacts(const ExperimentRun& run, const FramePair& pair,
                                     const SurfaceImage& target, const RegistrationResult& result,
-                                    const Measured& measured, const Timing& timing);
+                                    const Measured& measured, const GraphGrowth& growth,
+                                    const Timing& timing);
 
 }  // namespace pliant

@@ -29,7 +29,7 @@ struct SampleRun {
     const SurfaceImage target = make_surface_image(pair.target, pair.camera);
     const Evaluation evaluation(pair, truth, result.source, target);
     const Measured measured = measure(evaluation, result, [](const Progress&) {});
-    return registration_artefacts(run, pair, target, result, measured, timing);
+    return registration_artefacts(run, pair, target, result, measured, growth, timing);
   }
   std::vector<Picture> pictures() const { return artefacts().pictures; }
 
@@ -38,6 +38,7 @@ struct SampleRun {
   FramePair pair;
   std::optional<PairTruth> truth;
   RegistrationResult result;
+  GraphGrowth growth;
   Timing timing{1, 110.75, {{"solve", 90.25}, {"match", 12.5}}, 110.75, 110.75, false};
 };
 
@@ -231,6 +232,22 @@ TEST(Registration, GivesTheSurfacesWithTheDistancesThatAreShown) {
   EXPECT_NEAR(mean(registered.errors), made.json["metrics"]["nearest_mean"], 1e-4);
   EXPECT_EQ(target.errors, std::vector<float>(40 * 30, 0));
   EXPECT_EQ(registered.matched.size(), source.surface.size());
+}
+
+TEST(RegistrationArtefacts, ShowHowGraphAndConstraintsGrewWhereTheyDid) {
+  const auto titles = [](const SampleRun& run) {
+    std::vector<std::string> titles;
+    for (const Series& series : run.artefacts().series) titles.push_back(series.title);
+    return titles;
+  };
+  SampleRun run(0);
+  run.growth = {{48, 48, 48}, {130, 130, 130}};
+  EXPECT_THAT(titles(run), Not(::testing::Contains("Graph")));
+  run.growth = {{48, 48, 96}, {130, 130, 130}};
+  EXPECT_THAT(titles(run), ::testing::Contains("Graph"));
+  EXPECT_THAT(titles(run), Not(::testing::Contains("Constraints")));
+  run.growth = {{48, 48, 96}, {130, 130, 700}};
+  EXPECT_EQ(run.artefacts().series.back().values, (std::vector<double>{130, 130, 700}));
 }
 
 }  // namespace
