@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "framework/config/config.h"
+#include "framework/core/error.h"
 #include "framework/imaging/depth_map.h"
 #include "framework/pose/alignment.h"
 #include "framework/pose/alignments.h"
