@@ -1,7 +1,7 @@
-#include "framework/problem/energy.h"
 #include "energies/constraint/equation.h"
 #include "energies/constraint/equation.h.embed.h"
 #include "energies/energies.h"
+#include "framework/problem/make_equation.h"
 
 namespace pliant {
 

@@ -1,7 +1,7 @@
-#include "framework/problem/energy.h"
 #include "energies/displacement/equation.h"
 #include "energies/displacement/equation.h.embed.h"
 #include "energies/energies.h"
+#include "framework/problem/make_equation.h"
 
 namespace pliant {
 

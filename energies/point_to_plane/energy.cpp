@@ -1,7 +1,7 @@
-#include "framework/problem/energy.h"
 #include "energies/energies.h"
 #include "energies/point_to_plane/equation.h"
 #include "energies/point_to_plane/equation.h.embed.h"
+#include "framework/problem/make_equation.h"
 
 namespace pliant {
 

@@ -63,8 +63,9 @@ fs::path canonical_name(const fs::path& file) {
 /// Reads an experiment and, beneath it, the files that it extends.
 class FileLoader {
  public:
-  FileLoader(const ConfigOverlay& overlay, std::vector<fs::path> base_folders, ConfigErrors& errors)
-      : overlay_(overlay), base_folders_(std::move(base_folders)), errors_(errors) {}
+  /// `overlay`, `source` and `errors` must outlive this.
+  FileLoader(const ConfigOverlay& overlay, const ConfigSource& source, ConfigErrors& errors)
+      : overlay_(overlay), source_(source), errors_(errors) {}
 
   /// Empty when the file or one beneath it cannot be used; why is then among the errors.
   std::optional<ConfigNode> load(const fs::path& file) {
@@ -73,12 +74,7 @@ class FileLoader {
   }
 
   std::optional<ConfigNode> load(const ConfigText& text) {
-    const auto origin = new_origin(text.name, fs::current_path() / text.folder, text.folder);
-    Document document = limited(text.text);
-    document.what = "the text";
-    auto tree = read(document, origin, {origin, 0, 0}, "");
-    if (!tree) return {};
-    return extended(std::move(*tree), {origin->name, {}});
+    return load(text.text, new_origin(text.name, fs::current_path() / text.folder, text.folder), {});
   }
 
   const std::vector<fs::path>& files() const { return files_; }
@@ -88,7 +84,7 @@ class FileLoader {
  private:
   struct Link {
     std::string shown;
-    fs::path canonical;  ///< empty for a text, which nothing can extend
+    fs::path canonical;  ///< of a base text its path; empty for another text, which nothing can extend
   };
 
   std::shared_ptr<const ConfigOrigin> new_origin(std::string name, fs::path folder, fs::path shown_folder) {
@@ -103,6 +99,15 @@ class FileLoader {
     if (!tree) return {};
     files_.push_back(canonical_name(file));
     return extended(std::move(*tree), {origin->name, files_.back()});
+  }
+
+  std::optional<ConfigNode> load(const std::string& text, const std::shared_ptr<const ConfigOrigin>& origin,
+                                 const fs::path& canonical) {
+    Document document = limited(text);
+    document.what = "the text";
+    auto tree = read(document, origin, {origin, 0, 0}, "");
+    if (!tree) return {};
+    return extended(std::move(*tree), {origin->name, canonical});
   }
 
   std::optional<ConfigNode> read(const Document& document, const std::shared_ptr<const ConfigOrigin>& origin,
@@ -140,12 +145,15 @@ class FileLoader {
       return {};
     }
     const ConfigOrigin& here = *value.mark.origin;
+    const fs::path within = here.folder.empty() ? here.shown_folder : "";  // of a base text
+    const fs::path name = (within / value.text).lexically_normal();
+    if (const auto text = source_.base_texts.find(name.string()); text != source_.base_texts.end()) {
+      if (goes_in_circle(name, value.mark)) return {};
+      return load(text->second, new_origin(name.string(), "", name.parent_path()), name);
+    }
     const fs::path beside = (here.folder / value.text).lexically_normal();
     const fs::path file = find_base(beside, value.text);
-    if (const std::string chain = circle(file); !chain.empty()) {
-      errors_.add(value.mark, "'extends' goes in a circle: " + chain);
-      return {};
-    }
+    if (goes_in_circle(canonical_name(file), value.mark)) return {};
     const fs::path shown = file == beside ? (here.shown_folder / value.text).lexically_normal() : file;
     const auto origin = new_origin(shown.string(), file.parent_path(), shown.parent_path());
     return load(file, origin, value.mark, "cannot extend " + in_quotes(file.string()) + ": ");
@@ -155,25 +163,28 @@ class FileLoader {
   fs::path find_base(const fs::path& beside, const fs::path& text) const {
     std::error_code error;
     if (text.is_absolute() || fs::exists(beside, error)) return beside;
-    for (const auto& folder : base_folders_) {
+    for (const auto& folder : source_.base_folders) {
       fs::path candidate = fs::absolute(folder / text).lexically_normal();
       if (fs::exists(candidate, error)) return candidate;
     }
     return beside;
   }
 
-  /// "a.yaml -> b.yaml -> a.yaml" where extending `file` would close a circle; empty elsewhere.
-  std::string circle(const fs::path& file) const {
-    std::string text;
-    for (const auto& link : chain_) text += link.shown + " -> ";
+  /// Whether extending the file or base text would close a circle, "a.yaml -> b.yaml -> a.yaml"; told at
+  /// `mark`.
+  bool goes_in_circle(const fs::path& canonical, const ConfigMark& mark) {
+    std::string chain;
+    for (const auto& link : chain_) chain += link.shown + " -> ";
     for (const auto& link : chain_) {
-      if (link.canonical == canonical_name(file)) return text + link.shown;
+      if (link.canonical != canonical) continue;
+      errors_.add(mark, "'extends' goes in a circle: " + chain + link.shown);
+      return true;
     }
-    return "";
+    return false;
   }
 
   const ConfigOverlay& overlay_;
-  std::vector<fs::path> base_folders_;
+  const ConfigSource& source_;
   ConfigErrors& errors_;
   std::vector<Link> chain_;
   std::vector<fs::path> files_;  ///< that were read
@@ -281,7 +292,7 @@ std::string Experiment::to_yaml() const {
 Experiment load_experiment(const ConfigSource& source, const ParameterTable& root, const Registry& registry) {
   ConfigErrors errors;
   const ConfigOverlay overlay(root, registry);
-  FileLoader loader(overlay, source.base_folders, errors);
+  FileLoader loader(overlay, source, errors);
   auto tree = std::visit([&](const auto& from) { return loader.load(from); }, source.from);
   if (!tree) errors.throw_if_any();
   lay_sets_over(*tree, source.sets, loader.origins(), overlay, errors);

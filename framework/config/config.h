@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -32,6 +33,9 @@ struct ConfigSource {
   /// Where a relative file in `extends` is looked for, in this order, when it is not found beside the file
   /// that names it: the folders of methods that come with an installation.
   std::vector<std::filesystem::path> base_folders = {};
+  /// What `extends` finds before any file: the texts of files by their relative paths, for programs that
+  /// carry their methods with them. What such a text extends is named relative to its own path.
+  std::map<std::string, std::string> base_texts = {};
 
   /// The path of the file or the name of the text, as errors show it.
   std::string name() const;
@@ -53,10 +57,10 @@ struct Experiment {
 };
 
 /// Reads an experiment strictly against the table `root`. A file may name another one in its top-level key
-/// `extends` (absolute, relative to itself, or else to one of the base folders), over which it is laid: maps
-/// merge, the overlay wins, and a section that names another component replaces the whole section. Lists
-/// under the key of an `overrides` parameter's sweeps become overrides (see Parameter::swept_by), of which
-/// each is named after its values: "step=2,seed=1".
+/// `extends` (a base text, absolute, relative to itself, or else to one of the base folders), over which it
+/// is laid: maps merge, the overlay wins, and a section that names another component replaces the whole
+/// section. Lists under the key of an `overrides` parameter's sweeps become overrides (see
+/// Parameter::swept_by), of which each is named after its values: "step=2,seed=1".
 ///
 /// Throws one ConfigError that tells everything that is wrong, one line each:
 /// `file:line:column: what is wrong; what was expected; did you mean 'x'?`

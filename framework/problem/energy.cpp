@@ -1,5 +1,7 @@
 #include "framework/problem/energy.h"
 
+#include <ceres/jet.h>
+
 #include <cmath>
 #include <stdexcept>
 

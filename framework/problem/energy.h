@@ -1,13 +1,17 @@
 #pragma once
 
-#include <ceres/jet.h>
-
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "framework/core/registry.h"
+
+// Declared only, as nobody needs its definition but who makes equations (make_equation.h).
+namespace ceres {
+template <typename T, int N>
+struct Jet;
+}  // namespace ceres
 
 namespace pliant {
 
@@ -38,7 +42,8 @@ constexpr int row_size(Stencil stencil) { return input_size(stencil) / 3; }
 const char* to_string(Stencil stencil);
 
 /// One residual with its Jacobian, written once in an equation.h and compiled three ways: in double for
-/// Ceres, over jets to check the Jacobian, and as OpenCL C from its text for the device.
+/// Ceres, over jets to check the Jacobian, and as OpenCL C from its text for the device. make_equation.h
+/// fills it.
 struct Equation {
   using Jet = ceres::Jet<double, max_stencil_inputs>;
 
@@ -53,19 +58,6 @@ struct Equation {
 
   bool axis_separable() const { return row != nullptr; }
 };
-
-/// Fills an Equation from the functions of an included equation.h and its embedded text.
-#define PLIANT_MAKE_EQUATION(NAME, SOURCE)                                 \
-  ::pliant::Equation {                                                     \
-#NAME, SOURCE, &NAME##_residual < double>, &NAME##_jacobian < double>, \
-        &NAME##_residual < ::pliant::Equation::Jet>, nullptr               \
-  }
-/// The same for an equation.h that also defines NAME_row.
-#define PLIANT_MAKE_SEPARABLE_EQUATION(NAME, SOURCE)                       \
-  ::pliant::Equation {                                                     \
-#NAME, SOURCE, &NAME##_residual < double>, &NAME##_jacobian < double>, \
-        &NAME##_residual < ::pliant::Equation::Jet>, &NAME##_row < double> \
-  }
 
 /// Where the constraints of a per_constraint energy come from.
 enum class ConstraintSource {

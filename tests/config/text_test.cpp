@@ -60,6 +60,53 @@ TEST_F(ConfigFromText, ACircleBeneathItIsFound) {
             file + ":1:10: 'extends' goes in a circle: live -> " + file + " -> " + file);
 }
 
+/// Experiments that a program carries with it.
+class ConfigOverBaseTexts : public ConfigFromText {
+ protected:
+  Experiment load_over(const std::map<std::string, std::string>& bases, const std::string& text) {
+    ConfigSource source{ConfigText{text, "live", folder_}, {}, {}};
+    source.base_texts = bases;
+    return load_experiment(source, table_, registry_);
+  }
+
+  std::string error_over(const std::map<std::string, std::string>& bases, const std::string& text) {
+    try {
+      load_over(bases, text);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(ConfigOverBaseTexts, ExtendingThemIsExtendingFiles) {
+  const std::string upper = "extends: lower.yaml\ntitle: upper\n";
+  write("files/lower.yaml", minimal);
+  write("files/upper.yaml", upper);
+  const Experiment experiment = load_over({{"carried/upper.yaml", upper}, {"carried/lower.yaml", minimal}},
+                                          "extends: carried/upper.yaml\n");
+  EXPECT_EQ(experiment.to_yaml(), load_text("extends: files/upper.yaml\n").to_yaml());
+  EXPECT_THAT(experiment.files, testing::IsEmpty());
+}
+
+TEST_F(ConfigOverBaseTexts, ComeBeforeFilesAndOnlyUnderTheirOwnNames) {
+  write("carried.yaml", minimal + "title: file\n");
+  EXPECT_EQ(load_over({{"carried.yaml", minimal + "title: text\n"}}, "extends: carried.yaml\n")
+                .values.text("title"),
+            "text");
+  EXPECT_EQ(load_over({{"a/carried.yaml", minimal + "title: text\n"}}, "extends: carried.yaml\n")
+                .values.text("title"),
+            "file");
+}
+
+TEST_F(ConfigOverBaseTexts, ErrorsNameThem) {
+  EXPECT_EQ(error_over({{"a/b.yaml", minimal + "solver: {iterations: 0}\n"}}, "extends: a/b.yaml\n"),
+            "a/b.yaml:3:22: 'solver.iterations' is '0'; expected an integer from 1 to 100");
+  EXPECT_EQ(error_over({{"a/b.yaml", "extends: c.yaml\n"}, {"a/c.yaml", "extends: b.yaml\n"}},
+                       "extends: a/b.yaml\n"),
+            "a/c.yaml:1:10: 'extends' goes in a circle: live -> a/b.yaml -> a/c.yaml -> a/b.yaml");
+}
+
 TEST_F(ConfigFromText, TextsThatAreNoExperiment) {
   EXPECT_EQ(error(""), "live:1:1: the text is empty; expected the keys of an experiment");
   EXPECT_EQ(error("- a\n"), "live:1:1: not a map; expected the keys of an experiment");

@@ -1,5 +1,7 @@
 #include "tests/problem/gradient_check.h"
 
+#include <ceres/jet.h>
+
 #include <Eigen/Core>
 #include <array>
 #include <limits>

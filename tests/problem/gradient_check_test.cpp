@@ -1,5 +1,6 @@
 #include "tests/problem/gradient_check.h"
 
+#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

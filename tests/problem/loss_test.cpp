@@ -1,3 +1,4 @@
+#include <ceres/jet.h>
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "framework/problem/energy.h"
 #include "energies/energies.h"
 #include "energies/stillness/equation.h"
 #include "energies/stillness/equation.h.embed.h"
+#include "framework/problem/make_equation.h"
 
 namespace pliant {
 

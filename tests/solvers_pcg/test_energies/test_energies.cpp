@@ -1,5 +1,6 @@
 #include "tests/solvers_pcg/test_energies/test_energies.h"
 
+#include "framework/problem/make_equation.h"
 #include "tests/solvers_pcg/test_energies/equation.h"
 #include "tests/solvers_pcg/test_energies/equation.h.embed.h"
 
