@@ -99,8 +99,10 @@ DepthRegistration::~DepthRegistration() = default;
 
 DepthRegistrationResult DepthRegistration::run(const DepthView& source, const DepthView& target,
                                                const Camera& camera) {
-  return to_depth_result(register_pair(make_depth_pair(source, target, camera), parts_->method,
-                                       parts_->device, parts_->seed, parts_->progress));
+  const FramePair pair = make_depth_pair(source, target, camera);
+  const Method& method = parts_->method;
+  return to_depth_result(register_pair(pair, method, parts_->device, parts_->seed,
+                                       telling(parts_->progress, pair.name, method.stopping.max_iterations)));
 }
 
 DepthRegistrationResult register_depth(const DepthView& source, const DepthView& target, const Camera& camera,

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "experiments/tasks/registration_artefacts.h"
 #include "framework/imaging/depth_map.h"
 #include "framework/tracking/register_pair.h"
@@ -8,17 +6,16 @@ namespace pliant {
 namespace {
 
 /// Tells of each iteration, and keeps how large graph and constraints were in it.
-Observer watching(const ProgressSink& progress, const std::string& label, const Method& method,
-                  GraphGrowth& growth) {
-  const int most = method.stopping.max_iterations;
-  return [&growth, tell = labelled(progress, label), most](const IterationView& view) {
+Observer watching(const ProgressSink& progress, const std::string& label, const std::string& name,
+                  const Method& method, GraphGrowth& growth) {
+  const Observer tell = telling(labelled(progress, label), name, method.stopping.max_iterations);
+  return [&growth, tell](const IterationView& view) {
     const auto nodes = static_cast<double>(view.graph.nodes.size());
     const auto constraints = static_cast<double>(view.constraints.size());
     if (view.number == 1) growth = {{nodes}, {constraints}};
     growth.nodes.push_back(nodes);
     growth.constraints.push_back(constraints);
-    tell({"", view.is_last ? 1.0 : static_cast<double>(view.number) / most,
-          fmt::format("iteration {}: residual {:.3f} mm", view.number, view.measured.residual_mean)});
+    tell(view);
   };
 }
 
@@ -45,7 +42,8 @@ class RegisterTask : public Task {
     GraphGrowth growth;
     const RegistrationResult result = told_with_place(run.place, pair, [&] {
       return make_timed(device, repeats, timing, [&](const std::string& label) {
-        return register_pair(pair, method, device, seed, watching(progress, label, method, growth));
+        return register_pair(pair, method, device, seed,
+                             watching(progress, label, pair.name, method, growth));
       });
     });
     const SurfaceImage target = make_surface_image(device, pair.target, pair.camera);

@@ -1,5 +1,7 @@
 #include "framework/tracking/register_pair.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "framework/core/stopwatch.h"
@@ -36,6 +38,15 @@ RegistrationResult register_pair(const FramePair& pair, const Method& method, De
   return {std::move(deformed), std::move(at_rest.source),
           std::move(at_rest.unfiltered.empty() ? at_rest.aligned : at_rest.unfiltered),
           std::move(scene.alignment), watch.milliseconds()};
+}
+
+Observer telling(const ProgressSink& progress, const std::string& what, int max_iterations) {
+  if (!progress) return {};
+  return [progress, what, max_iterations](const IterationView& view) {
+    const double done = view.is_last ? 1.0 : static_cast<double>(view.number) / max_iterations;
+    progress({what, done,
+              fmt::format("iteration {}: residual {:.3f} mm", view.number, view.measured.residual_mean)});
+  };
 }
 
 std::unique_ptr<Problem> freeze_problem(const FramePair& pair, const Method& method, Device& device,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "framework/core/log.h"
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
 #include "framework/registration/nonrigid.h"
@@ -18,6 +19,9 @@ namespace pliant {
 /// (Device::measure_stages).
 RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,
                                  std::uint64_t seed, const Observer& observer = {});
+
+/// Tells of each iteration of at most `max_iterations`: its residual, and how much is done of `what`.
+Observer telling(const ProgressSink& progress, const std::string& what, int max_iterations);
 
 /// The problem of the first outer iteration: source aligned, graph built, constraints matched once, nothing
 /// solved. Solvers can be compared on it.
