@@ -7,6 +7,7 @@
 
 #include "experiments/datasets/depth_doubts.h"
 #include "framework/core/error.h"
+#include "framework/geometry/has_point.h"
 
 namespace pliant {
 namespace {
@@ -71,7 +72,7 @@ class ViewReader {
 
 bool sees_something(const Frame& frame) {
   for (std::size_t i = 0; i < frame.depth.size(); ++i)
-    if (is_depth(frame.depth.data()[i]) && (frame.mask.empty() || frame.mask.data()[i] != 0)) return true;
+    if (has_point(frame, i)) return true;
   return false;
 }
 

@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/geometry/has_point.h"
 #include "framework/geometry/surface.h"
 
 namespace pliant {
 namespace {
-
-bool has_point(const Frame& frame, std::size_t pixel) {
-  return is_depth(frame.depth.pixels()[pixel]) && (frame.mask.empty() || frame.mask.pixels()[pixel] != 0);
-}
 
 std::vector<float> depths_of(const Frame& frame) {
   std::vector<float> depths;

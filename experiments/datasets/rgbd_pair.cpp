@@ -11,6 +11,7 @@
 #include "experiments/datasets/depth_doubts.h"
 #include "experiments/datasets/stored_pair.h"
 #include "framework/core/error.h"
+#include "framework/geometry/has_point.h"
 #include "framework/io/images.h"
 #include "framework/io/intrinsics.h"
 #include "framework/io/scene_flow.h"
@@ -37,10 +38,6 @@ void scale(DepthImage& depth, double factor) {
 void drop_farther(DepthImage& depth, double limit) {
   std::replace_if(
       depth.data(), depth.data() + depth.size(), [limit](float value) { return value > limit; }, 0.0f);
-}
-
-bool has_point(const Frame& frame, std::size_t pixel) {
-  return frame.depth.pixels()[pixel] > 0 && (frame.mask.empty() || frame.mask.pixels()[pixel] != 0);
 }
 
 void check_has_points(const Frame& frame, const RgbdPair::FrameFiles& files,

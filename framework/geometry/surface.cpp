@@ -1,4 +1,5 @@
 #include "framework/geometry/surface.h"
+#include "framework/geometry/has_point.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -24,11 +25,7 @@ PointImage make_points(const Frame& frame, const Camera& camera) {
   PointImage points(frame.depth.width(), frame.depth.height(), Eigen::Vector3f::Zero());
   for (int v = 0; v < points.height(); ++v) {
     for (int u = 0; u < points.width(); ++u) {
-      const float depth = frame.depth(u, v);
-      const bool is_inside = frame.mask.empty() || frame.mask(u, v) != 0;
-      if (is_inside && is_depth(depth)) {
-        points(u, v) = camera.unproject(u, v, depth).cast<float>();
-      }
+      if (has_point(frame, u, v)) points(u, v) = camera.unproject(u, v, frame.depth(u, v)).cast<float>();
     }
   }
   return points;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "framework/core/error.h"
+#include "framework/geometry/has_point.h"
 #include "framework/pose/align_features.h"
 #include "framework/pose/align_icp.h"
 #include "framework/pose/alignment.h"
@@ -17,10 +18,6 @@ namespace {
 /// Of the cut of the two-way residual: expressions and shapes of heads begin at 0.02 to 0.17 of it, heads
 /// turned by 90 degrees and more at 0.66.
 constexpr double far_share = 0.5;
-
-bool has_point(const Frame& frame, int u, int v) {
-  return is_depth(frame.depth(u, v)) && (frame.mask.empty() || frame.mask(u, v) != 0);
-}
 
 /// Further than what a deformation alone would put between the views.
 bool is_far(const TwoWayResidual& residual) { return residual.mean > far_share * residual.cut; }

@@ -13,6 +13,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "framework/core/error.h"
+#include "framework/geometry/has_point.h"
 
 namespace pliant {
 namespace {
@@ -35,8 +36,7 @@ cv::Mat usable_pixels(const Frame& frame) {
   cv::Mat usable(frame.depth.height(), frame.depth.width(), CV_8U);
   for (int v = 0; v < usable.rows; ++v) {
     for (int u = 0; u < usable.cols; ++u) {
-      const bool inside = frame.mask.empty() || frame.mask(u, v) != 0;
-      usable.at<std::uint8_t>(v, u) = inside && is_depth(frame.depth(u, v)) ? 255 : 0;
+      usable.at<std::uint8_t>(v, u) = has_point(frame, u, v) ? 255 : 0;
     }
   }
   return usable;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "framework/core/error.h"
+#include "framework/geometry/has_point.h"
 
 namespace pliant {
 namespace {
@@ -18,8 +19,7 @@ Array<int> pixels_on_grid(const Frame& frame, const PixelWindow& window) {
   std::vector<int> pixels;
   for (int v = 2; v < frame.depth.height(); v += 4)
     for (int u = 2; u < frame.depth.width(); u += 4)
-      if (is_depth(frame.depth(u, v)) && (frame.mask.empty() || frame.mask(u, v) != 0))
-        pixels.push_back(static_cast<int>(window.offset(u, v)));
+      if (has_point(frame, u, v)) pixels.push_back(static_cast<int>(window.offset(u, v)));
   return Array<int>(std::move(pixels));
 }
 
