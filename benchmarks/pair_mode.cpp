@@ -12,7 +12,7 @@
 #include "experiments/program/folders.h"
 #include "experiments/runner/components.h"
 #include "experiments/runner/experiment.h"
-#include "experiments/runner/workbench.h"
+#include "experiments/tasks/workbench.h"
 #include "framework/core/stopwatch.h"
 #include "framework/evaluation/metrics.h"
 #include "framework/tracking/register_pair.h"

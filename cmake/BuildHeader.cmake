@@ -5,11 +5,14 @@ execute_process(COMMAND git describe --always --dirty --exclude=* --abbrev=12
 if(FAILED)
   set(COMMIT unknown) # no git, or not a checkout
 endif()
+execute_process(COMMAND git diff HEAD WORKING_DIRECTORY "${SOURCE}" OUTPUT_VARIABLE CHANGES ERROR_QUIET)
+string(SHA1 CHANGES "${CHANGES}")
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT [[
 // Made by cmake/BuildHeader.cmake; do not edit.
 #pragma once
 #define PLIANT_VERSION "@VERSION@"
 #define PLIANT_COMMIT "@COMMIT@"
+#define PLIANT_CHANGES "@CHANGES@"
 #define PLIANT_CERES_VERSION "@CERES@"
 #define PLIANT_EIGEN_VERSION "@EIGEN@"
 #define PLIANT_FLANN_VERSION "@FLANN@"

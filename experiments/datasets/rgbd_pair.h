@@ -32,9 +32,9 @@ class RgbdPair : public FrameSource {
 
   explicit RgbdPair(Settings settings) : settings_(std::move(settings)) {}
 
-  /// Gives depth images of one size, and colour images of one, with at least one point in the source and in the target, and with truth,
-  /// where there is a file of it, for at least one point of the source. What is odd about depth or intrinsics
-  /// is among the stream's warnings. The seed plays no part.
+  /// Gives depth images of one size, and colour images of one, with at least one point in the source and in
+  /// the target, and with truth, where there is a file of it, for at least one point of the source. What is
+  /// odd about depth or intrinsics is among the stream's warnings. The seed plays no part.
   std::unique_ptr<DataStream> open(std::uint64_t seed) const override;
 
  private:

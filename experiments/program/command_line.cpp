@@ -40,6 +40,8 @@ Examples:
   pliant run my.yaml --data ~/recordings
   pliant run my.yaml --repeat 9       the time of a run after the first, and its spread
 
+A sweep that was interrupted, or in which a run failed, goes on from its finished runs when it is run again.
+
 An experiment on data of your own is a file like this one:
   extends: methods/ed.yaml
   data:

@@ -7,7 +7,6 @@
 #include "experiments/program/folders.h"
 #include "experiments/program/output.h"
 #include "experiments/program/progress_line.h"
-#include "experiments/runner/compare.h"
 #include "experiments/runner/components.h"
 #include "experiments/runner/runner.h"
 #include "framework/config/schema.h"
@@ -29,33 +28,28 @@ fs::path out_folder(const ExperimentOptions& options, const ExperimentPlan& plan
   return options.out.empty() ? fs::path("out") / plan.name : fs::path(options.out);
 }
 
-void tell_time(const std::string& run, const Timing& timing) {
-  if (timing.built_kernels)
-    print("{}: the time includes building kernels; --repeat 5 tells that of later runs\n", run);
-}
-
-void tell_end(const RunRecord& run) {
-  const RegistrationResult& result = run.result;
-  print("{}: {}{} after {} outer iterations; {} with {}\n", run.name, result.termination,
-        result.reason.empty() ? "" : " (" + result.reason + ")", result.counts.outer_iterations,
-        result.solver.name, result.solver.linear_solver);
-  for (const auto& warning : result.warnings) print("{}: warning: {}\n", run.name, warning);
-  tell_time(run.name, run.timing);
-}
-
-void tell_end(const EditRecord& run) {
-  const EditResult& result = run.result;
-  print("{}: {} after {} iterations; {} with {}\n", run.name, result.solver.termination,
-        result.counts.solver_iterations, result.solver.name, result.solver.linear_solver);
-  for (const auto& warning : result.warnings) print("{}: warning: {}\n", run.name, warning);
-  tell_time(run.name, run.timing);
-}
-
-template <class Record>
-void tell(const ExperimentPlan& plan, const std::vector<Record>& runs, const fs::path& folder) {
-  print("{}\n", to_text(run_table(plan, runs)));
-  for (const auto& run : runs) tell_end(run);
+void tell(const Task& task, const ExperimentPlan& plan, const ExperimentResult& result,
+          const fs::path& folder) {
+  for (const auto& table : run_tables(task, plan, result)) print("{}\n", to_text(table));
+  for (const auto& run : result.runs)
+    for (const auto& note : run.notes) print("{}: {}\n", run.name, note);
+  for (const auto& failed : result.failed) print("{}: failed: {}\n", failed.name, failed.message);
+  if (!result.taken.empty())
+    write_output(fmt::format("Taken from the earlier result, which was not finished: {}\n",
+                             fmt::join(result.taken, ", ")));
   print("Results are in {}\n", folder.string());
+}
+
+/// Makes an experiment and tells what came of it.
+void make(const Task& task, const ExperimentPlan& plan, const ExperimentOptions& options,
+          const Registry& registry) {
+  const fs::path folder = out_folder(options, plan);
+  Workbench workbench(registry, show_line);
+  ProgressLine line;
+  const ExperimentResult result = run_experiment(task, plan, folder, workbench, line.sink(), options.repeats);
+  line.clear();
+  tell(task, plan, result, folder);
+  check_ends(result);
 }
 
 }  // namespace
@@ -67,19 +61,7 @@ ConfigSource config_source(const ExperimentOptions& options) {
 void run_command(const ExperimentOptions& options) {
   const Registry registry = all_components();
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
-  const fs::path folder = out_folder(options, plan);
-  Workbench workbench(registry, show_line);
-  ProgressLine line;
-  if (plan.has_handles()) {
-    const auto runs = edit_experiment(plan, folder, workbench, line.sink(), options.repeats);
-    line.clear();
-    tell(plan, runs, folder);
-    return;
-  }
-  const auto runs = run_experiment(plan, folder, workbench, line.sink(), options.repeats);
-  line.clear();
-  tell(plan, runs, folder);
-  check_ends(plan, runs);
+  make(*make_task(plan.experiment.values), plan, options, registry);
 }
 
 void check_command(const ExperimentOptions& options) {
@@ -97,14 +79,7 @@ void check_command(const ExperimentOptions& options) {
 
 void compare_command(const ExperimentOptions& options) {
   const Registry registry = all_components();
-  const ExperimentPlan plan = plan_experiment(config_source(options), registry);
-  const fs::path folder = out_folder(options, plan);
-  Workbench workbench(registry, show_line);
-  ProgressLine line;
-  const auto comparisons = compare_solvers(plan, folder, workbench, line.sink());
-  line.clear();
-  for (const auto& table : compare_tables(comparisons)) print("{}\n", to_text(table));
-  print("Results are in {}\n", folder.string());
+  make(*make_compare_task(), plan_experiment(config_source(options), registry), options, registry);
 }
 
 void components_command(const std::string& kind, const std::string& name, bool as_json) {

@@ -19,8 +19,10 @@ bool is_ignored(int signal) {
 }
 
 [[noreturn]] void end_after(int signal) {
-  ResultFolder::abandon_all();
+  const auto kept = ResultFolder::abandon_all();
   write_message(isatty(STDERR_FILENO) != 0 ? "\r\033[Kinterrupted\n" : "interrupted\n");
+  for (const auto& folder : kept)
+    write_message(folder.string() + ": the finished runs; the same command goes on from there\n");
   ::_exit(128 + signal);
 }
 
@@ -33,7 +35,7 @@ void answer_interruptions() {
   sigaddset(&signals, SIGTERM);
   if (!is_ignored(SIGHUP)) sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::atexit(ResultFolder::abandon_all);  // for libraries that end the program on their own
+  std::atexit([] { ResultFolder::abandon_all(); });  // for libraries that end the program on their own
   std::thread([signals] {
     int signal = 0;
     if (sigwait(&signals, &signal) == 0) end_after(signal);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,7 +13,6 @@
 #include "experiments/program/folders.h"
 #include "experiments/program/output.h"
 #include "experiments/program/progress_line.h"
-#include "experiments/runner/compare.h"
 #include "experiments/runner/components.h"
 #include "experiments/runner/runner.h"
 #include "framework/core/error.h"
@@ -54,9 +54,10 @@ class Reproduction {
       make_all(result.unfinished());
     } catch (const Error& error) {
       if (tables_.empty()) throw;
-      throw Error(
-          fmt::format("{}; the experiments before it are kept in {}", error.what(), result.keep().string()),
-          error.exit_code());
+      result.keep();
+      throw Error(fmt::format("{}; the experiments before it are kept in {}", error.what(),
+                              result.unfinished().string()),
+                  error.exit_code());
     }
     result.commit();
     return fs::absolute(out_ / page_name).lexically_normal();
@@ -65,12 +66,13 @@ class Reproduction {
  private:
   struct Planned {
     const Item& item;
+    std::unique_ptr<Task> task;
     std::optional<ExperimentPlan> plan;  ///< none: its data was not found
   };
 
   void plan(const Item& item) {
     if (*item.needs != '\0' && !find_data(data_folders(data_), item.needs)) {
-      planned_.push_back({item, {}});
+      planned_.push_back({item, {}, {}});
       return;
     }
     ExperimentOptions options;
@@ -78,19 +80,19 @@ class Reproduction {
     options.data = data_;
     ExperimentPlan plan = plan_experiment(config_source(options), registry_);
     if (quick_) plan.keep_quick_runs();
-    for (const auto& file : item.is_comparison ? compare_files() : result_files(plan, registry_))
-      files_.push_back(item.name / file);
+    auto task = item.is_comparison ? make_compare_task() : make_task(plan.experiment.values);
+    for (const auto& file : result_files(*task, plan, registry_)) files_.push_back(item.name / file);
     inputs_.insert(inputs_.end(), plan.experiment.files.begin(), plan.experiment.files.end());
-    planned_.push_back({item, std::move(plan)});
+    planned_.push_back({item, std::move(task), std::move(plan)});
   }
 
   void make_all(const fs::path& folder) {
-    for (const auto& [item, plan] : planned_) {
+    for (const auto& [item, task, plan] : planned_) {
       if (!plan) {
         skip(item);
         continue;
       }
-      for (auto& table : item.is_comparison ? compare(item, *plan, folder) : run(item, *plan, folder)) {
+      for (auto& table : run(item.name, *task, *plan, folder)) {
         print("{}\n", to_text(table));
         tables_.push_back(std::move(table));
       }
@@ -101,22 +103,12 @@ class Reproduction {
     write_file((folder / page_name).string(), {page.begin(), page.end()});
   }
 
-  std::vector<Table> run(const Item& item, const ExperimentPlan& plan, const fs::path& folder) {
+  std::vector<Table> run(const char* name, const Task& task, const ExperimentPlan& plan,
+                         const fs::path& folder) {
     ProgressLine line;
-    if (plan.has_handles())
-      return {run_table(plan, edit_experiment(plan, folder / item.name, workbench_, line.sink()), item.name)};
-    const auto runs = run_experiment(plan, folder / item.name, workbench_, line.sink());
-    check_ends(plan, runs);
-    return {run_table(plan, runs, item.name)};
-  }
-
-  std::vector<Table> compare(const Item& item, const ExperimentPlan& plan, const fs::path& folder) {
-    ProgressLine line;
-    auto tables = compare_tables(compare_solvers(plan, folder / item.name, workbench_, line.sink()));
-    for (auto& table : tables) {
-      for (auto& row : table.rows) row.link = std::string(item.name) + "/index.html";
-    }
-    return tables;
+    const auto result = run_experiment(task, plan, folder / name, workbench_, line.sink());
+    check_ends(result);
+    return run_tables(task, plan, result, name);
   }
 
   void skip(const Item& item) {

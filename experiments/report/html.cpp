@@ -27,7 +27,9 @@ th:first-child, td:first-child { text-align: left; padding-left: 0; }
 thead th { color: var(--quiet); font-weight: 500; }
 tbody tr:last-child > * { border-bottom: 0; }
 tbody th { font-weight: 400; }
+.facts td { white-space: normal; }
 td.final { font-weight: 650; }
+ul { margin: 0; padding-left: 20px; }
 .quiet { color: var(--quiet); }
 .bar { width: 34%; min-width: 80px; }
 .bar span { display: block; height: 10px; min-width: 1px; border-radius: 5px; background: var(--accent); }

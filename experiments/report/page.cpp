@@ -2,180 +2,55 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <memory>
-#include <utility>
 
 #include "experiments/report/html.h"
-#include "experiments/report/pictures.h"
 #include "experiments/report/plot.h"
+#include "experiments/report/reports.h"
 #include "framework/io/file.h"
 
 namespace pliant {
 namespace {
 
-std::string with_sd(double mean, double sd) {
-  return fmt::format("{:.2f} <span class=\"quiet\">&plusmn; {:.2f}</span>", mean, sd);
+std::string notes_list(const std::vector<std::string>& notes) {
+  if (notes.empty()) return "";
+  std::string items;
+  for (const std::string& note : notes) items += "<li>" + html_escape(note) + "</li>\n";
+  return html_section("Notes", "<ul>\n" + items + "</ul>\n");
 }
 
-/// A row of the table of metrics; `cell` writes one of its three values.
-std::string metrics_row(const std::string& name, const RunRecord& run,
-                        const std::function<std::string(const Metrics&)>& cell) {
-  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"final\">{}</td></tr>\n",
-                     name, cell(run.initial), cell(run.aligned), cell(run.metrics));
+/// Tables with a header, or those without, which need less room.
+std::string tables_html(const std::vector<Table>& tables, bool with_header) {
+  std::string html;
+  for (const Table& table : tables)
+    if (table.header.empty() != with_header) html += to_html(table);
+  return html;
 }
 
-std::string truth_rows(const RunRecord& run) {
-  const auto row = [&](const char* name, const std::function<std::string(const Metrics::Truth&)>& cell) {
-    return metrics_row(name, run, [&](const Metrics& metrics) {
-      return metrics.truth ? cell(*metrics.truth) : std::string("&ndash;");
-    });
-  };
-  using Truth = Metrics::Truth;
-  return row("To the true position (EPE)",
-             [](const Truth& truth) { return with_sd(truth.epe_mean, truth.epe_sd); }) +
-         row("EPE, 95th percentile",
-             [](const Truth& truth) { return fmt::format("{:.2f}", truth.epe_p95); }) +
-         row("EPE of points that truly move",
-             [](const Truth& truth) { return fmt::format("{:.2f}", truth.epe_moving_mean); });
-}
-
-std::string metrics_table(const RunRecord& run) {
-  std::string rows =
-      metrics_row("Residual, to the target at the same pixel", run,
-                  [](const Metrics& metrics) { return with_sd(metrics.residual_mean, metrics.residual_sd); });
-  rows += metrics_row("Coverage (points that have such a pixel)", run,
-                      [](const Metrics& metrics) { return fmt::format("{:.1f} %", 100 * metrics.coverage); });
-  rows += metrics_row("To the nearest target point", run, [](const Metrics& metrics) {
-    return with_sd(metrics.nearest_mean, metrics.nearest_sd);
-  });
-  if (run.metrics.truth) rows += truth_rows(run);
-  return html_section(
-      "Distances in mm, mean &plusmn; standard deviation",
-      "<div class=\"scroll\"><table><thead><tr><th></th><th>initial</th><th>aligned</th><th>final</th>"
-      "</tr></thead><tbody>\n" +
-          rows + "</tbody></table></div>\n");
-}
-
-std::string facts_table(const std::vector<std::pair<std::string, std::string>>& facts) {
-  std::string rows;
-  for (const auto& [name, value] : facts) {
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, html_escape(value));
-  }
-  return "<div class=\"scroll\"><table><tbody>\n" + rows + "</tbody></table></div>\n";
-}
-
-std::string counts_table(const RegistrationResult::Counts& counts) {
-  std::vector<std::pair<std::string, std::string>> facts{
-      {"Source points", std::to_string(counts.source_points)},
-      {"Nodes", std::to_string(counts.nodes)},
-      {"Edges", std::to_string(counts.edges)},
-      {"Constraints", std::to_string(counts.constraints)},
-      {"Unknowns", std::to_string(counts.unknowns)}};
-  if (counts.outer_iterations > 0)
-    facts.emplace_back("Outer iterations", std::to_string(counts.outer_iterations));
-  facts.emplace_back("Solver iterations", std::to_string(counts.solver_iterations));
-  return html_section("Counts", facts_table(facts));
-}
-
-std::string method_table(const RegistrationResult& result) {
-  const double angle = Eigen::AngleAxisd(result.alignment.motion.rotation()).angle() * 180 / EIGEN_PI;
-  const std::string matches =
-      result.alignment.matches == 0
-          ? "none used"
-          : fmt::format("{} of {} agree", result.alignment.inliers, result.alignment.matches);
-  return html_section(
-      "Method",
-      facts_table(
-          {{"Solver", result.solver.name},
-           {"Linear solver", result.solver.linear_solver},
-           {"Last solve ended", result.solver.termination},
-           {"Registration ended",
-            result.reason.empty() ? result.termination : result.termination + ": " + result.reason},
-           {"Aligned by", result.alignment.method +
-                              (result.alignment.reason.empty() ? "" : ": " + result.alignment.reason)},
-           {"Feature matches", matches},
-           {"Initial rotation", fmt::format("{:.2f} degrees", angle)},
-           {"Initial translation", fmt::format("{:.1f} mm", result.alignment.motion.translation().norm())}}));
-}
-
-std::string method_table(const EditResult& result) {
-  return html_section("Method", facts_table({{"Solver", result.solver.name},
-                                             {"Linear solver", result.solver.linear_solver},
-                                             {"The solve ended", result.solver.termination}}));
-}
-
-std::string handles_table(const EditResult& result) {
-  std::string rows;
-  for (const auto& handle : result.handles)
-    rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{:.2f}</td><td "
-        "class=\"final\">{:.3f}</td><td>{:.3f}</td>"
-        "</tr>\n",
-        html_escape(handle.name), handle.points, handle.initial_mean, handle.mean, handle.max);
-  return html_section("Handles: distance in mm of the points that they hold from where they want them",
-                      "<div class=\"scroll\"><table><thead><tr><th></th><th>points</th><th>initial "
-                      "mean</th><th>final mean</th>"
-                      "<th>final maximum</th></tr></thead><tbody>\n" +
-                          rows + "</tbody></table></div>\n");
-}
-
-std::string energy_plot(const RegistrationResult::Energy& energy, const char* step) {
-  std::vector<double> values{energy.initial};
-  values.insert(values.end(), energy.per_iteration.begin(), energy.per_iteration.end());
-  return html_section("Energy", log_plot_svg(values, step, "energy (log scale)") +
-                                    fmt::format("<p class=\"quiet\">From {:.6g} to {:.6g}.</p>\n",
-                                                energy.initial, energy.final));
-}
-
-std::string time_bars(const StageTimes& time_ms, double total_ms) {
-  std::vector<std::pair<std::string, double>> stages(time_ms.begin(), time_ms.end());
-  std::stable_sort(stages.begin(), stages.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
-  const double longest = stages.empty() ? 0 : stages.front().second;
-  std::string rows;
-  for (const auto& [name, milliseconds] : stages) {
-    const double share = longest > 0 ? 100 * milliseconds / longest : 0;
-    rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td class=\"bar\"><span "
-        "style=\"width:{:.1f}%\"></span></td><td>{:.2f}</td>"
-        "</tr>\n",
-        html_escape(name), share, milliseconds);
-  }
-  rows += fmt::format("<tr><th scope=\"row\">total</th><td></td><td class=\"final\">{:.2f}</td></tr>\n",
-                      total_ms);
-  return html_section("Time in ms",
-                      "<div class=\"scroll\"><table><tbody>\n" + rows + "</tbody></table></div>\n");
+std::string plot_html(const Series& series) {
+  const std::string plot = log_plot_svg(series.values, series.step, series.value + " (log scale)");
+  return html_section(html_escape(series.title),
+                      plot + "<p class=\"quiet\">" + html_escape(series.note) + "</p>\n");
 }
 
 std::string picture_grid(const std::vector<Picture>& pictures) {
+  if (pictures.empty()) return "";
   std::string figures;
   for (const Picture& picture : pictures) {
     figures += fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"></figure>\n",
-                           html_escape(picture.caption), base64(picture.png));
+                           html_escape(picture.caption()), base64(picture.png()));
   }
   return html_section("Pictures", "<div class=\"pictures\">\n" + figures + "</div>\n");
 }
 
 class PageReport : public Report {
  public:
-  std::vector<std::string> files() const override { return {"index.html"}; }
-  std::vector<std::filesystem::path> write(const ReportInput& input,
+  std::vector<std::string> files(const ArtefactNames&) const override { return {"index.html"}; }
+  std::vector<std::filesystem::path> write(const RunArtefacts& run,
                                            const std::filesystem::path& folder) const override {
-    return write(make_page(input), folder);
-  }
-  std::vector<std::filesystem::path> write(const EditInput& input,
-                                           const std::filesystem::path& folder) const override {
-    return write(make_page(input), folder);
-  }
-
- private:
-  static std::vector<std::filesystem::path> write(const std::string& page,
-                                                  const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "index.html";
+    const std::string page = make_page(run);
     write_file(file.string(), {page.begin(), page.end()});
     return {file};
   }
@@ -196,22 +71,13 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-std::string make_page(const ReportInput& input) {
-  const RunRecord& run = input.run;
-  const std::string body =
-      metrics_table(run) + "<div class=\"columns\">\n" + counts_table(run.result.counts) +
-      method_table(run.result) + energy_plot(run.result.energy, "outer iteration") +
-      time_bars(run.result.time_ms, run.result.total_ms) + "</div>\n" + picture_grid(draw_pictures(input));
-  return html_page(run.name, "Non-rigid registration of " + input.pair.name, body);
-}
-
-std::string make_page(const EditInput& input) {
-  const EditResult& result = input.run.result;
-  const std::string body = handles_table(result) + "<div class=\"columns\">\n" + counts_table(result.counts) +
-                           method_table(result) + energy_plot(result.energy, "iteration of the solver") +
-                           time_bars(result.time_ms, result.total_ms) + "</div>\n" +
-                           picture_grid(draw_pictures(input));
-  return html_page(input.run.name, "The source of " + input.pair.name + ", bent by handles", body);
+std::string make_page(const RunArtefacts& run) {
+  std::string columns;
+  for (const Series& series : run.series) columns += plot_html(series);
+  columns += tables_html(run.tables, false);
+  return html_page(run.name, run.lead,
+                   notes_list(run.notes) + tables_html(run.tables, true) + "<div class=\"columns\">\n" +
+                       columns + "</div>\n" + picture_grid(run.pictures));
 }
 
 void register_page_report(Registry& registry) {

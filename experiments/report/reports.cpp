@@ -1,15 +1,11 @@
 #include "experiments/report/reports.h"
 
-#include "experiments/report/page.h"
-#include "experiments/report/pictures.h"
-#include "experiments/report/surfaces.h"
-
 namespace pliant {
 
 void register_reports(Registry& registry) {
-  register_surfaces_report(registry);
-  register_pictures_report(registry);
-  register_page_report(registry);
+#define PLIANT_REGISTER_REPORT(NAME) register_##NAME##_report(registry);
+  PLIANT_REPORTS(PLIANT_REGISTER_REPORT)
+#undef PLIANT_REGISTER_REPORT
 }
 
 }  // namespace pliant

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "experiments/report/report.h"
+#include "experiments/report/reports.h"
 #include "framework/io/ply.h"
 
 namespace pliant {
@@ -27,47 +27,23 @@ class SurfacesReport : public Report {
  public:
   explicit SurfacesReport(float depth_step) : depth_step_(depth_step) {}
 
-  std::vector<std::string> files() const override { return {"source.ply", "target.ply", "registered.ply"}; }
-
-  std::vector<std::filesystem::path> write(const ReportInput& input,
-                                           const std::filesystem::path& folder) const override {
-    const RegistrationResult& result = input.run.result;
-    const std::vector<Eigen::Vector3i> triangles = triangulate(result.source, depth_step_);
-    PlySurface source{result.source, input.nearest.initial, triangles};
-
-    PlySurface registered{result.source, input.nearest.final, triangles};
-    registered.surface.points = result.points;
-    registered.surface.normals = result.normals;
-    registered.matched = result.matched;
-
-    PlySurface target{make_surface(input.target, input.pair.target.color), {}, {}};
-    target.errors.assign(target.surface.size(), 0);
-    target.triangles = triangulate(target.surface, depth_step_);
-
-    std::vector<std::filesystem::path> files;
-    for (const auto& [name, ply] : {std::pair<const char*, const PlySurface&>{"source.ply", source},
-                                    {"target.ply", target},
-                                    {"registered.ply", registered}}) {
-      files.push_back(folder / name);
-      write_ply(files.back().string(), ply);
-    }
+  std::vector<std::string> files(const ArtefactNames& names) const override {
+    std::vector<std::string> files;
+    for (const std::string& name : names.surfaces) files.push_back(name + ".ply");
     return files;
   }
 
-  /// The bent surface under the name of a registered one; `error` is how far each point went.
-  std::vector<std::filesystem::path> write(const EditInput& input,
+  std::vector<std::filesystem::path> write(const RunArtefacts& run,
                                            const std::filesystem::path& folder) const override {
-    const EditResult& result = input.run.result;
-    const std::vector<Eigen::Vector3i> triangles = triangulate(result.source, depth_step_);
-    const PlySurface source{result.source, std::vector<float>(result.source.size(), 0), triangles};
-    PlySurface bent{result.source, {}, triangles};
-    for (std::size_t i = 0; i < result.points.size(); ++i)
-      bent.errors.push_back((result.points[i] - result.source.points[i]).norm());
-    bent.surface.points = result.points;
-    bent.surface.normals = result.normals;
-    write_ply((folder / "source.ply").string(), source);
-    write_ply((folder / "registered.ply").string(), bent);
-    return {folder / "source.ply", folder / "registered.ply"};
+    std::vector<std::filesystem::path> files;
+    for (const NamedSurface& shown : run.surfaces) {
+      const Surface& surface = shown.surface;
+      const Surface rest = shown.rest.empty() ? surface : Surface{shown.rest, {}, surface.pixels, {}};
+      files.push_back(folder / (shown.name + ".ply"));
+      write_ply(files.back().string(),
+                {surface, shown.errors, triangulate(rest, depth_step_), shown.matched});
+    }
+    return files;
   }
 
  private:

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "framework/core/registry.h"
 #include "framework/geometry/surface.h"
 
 namespace pliant {
@@ -11,8 +10,5 @@ namespace pliant {
 /// Triangles between neighbouring pixels of a surface, as indices of its points, turned towards the
 /// camera. None spans a depth step of more than `depth_step` mm: across it there is air.
 std::vector<Eigen::Vector3i> triangulate(const Surface& surface, float depth_step);
-
-/// Adds the report `surfaces`: source.ply, target.ply and registered.ply.
-void register_surfaces_report(Registry& registry);
 
 }  // namespace pliant

@@ -16,27 +16,6 @@
 namespace pliant {
 namespace {
 
-ParameterTable compare_table() {
-  return {
-      integer("repetitions", 5).range(1, 1000).doc("solves that are timed, after one that is not"),
-      real("max_seconds", 20).unit("s").above(0).doc("no further solve of a solver is begun after this time"),
-  };
-}
-
-ParameterTable kernels_table() {
-  return {
-      integer("vector_width")
-          .optional()
-          .range(1, 16)
-          .doc("of the vectors that kernels are written over: 1 or 16; 16 on a CPU, 1 on a GPU by default"),
-      integer("work_group_size")
-          .optional()
-          .range(1, 4096)
-          .doc("work-items that solve one system together, a power of two; 1 on a CPU, 128 on a GPU by "
-               "default"),
-  };
-}
-
 /// Results are kept in folders of these names, so they must be fit for one.
 void check_name(const std::string& name, const std::string& place, const std::string& what) {
   const bool is_good =
@@ -108,17 +87,6 @@ void name_experiment(ExperimentPlan& plan, const ConfigSource& source) {
 
 }  // namespace
 
-DeviceOptions device_options(const Parameters& experiment) {
-  const Parameters& kernels = experiment.section("kernels");
-  const auto number = [&](const std::string& name) {
-    return kernels.has(name) ? std::optional(static_cast<int>(kernels.integer(name))) : std::nullopt;
-  };
-  DeviceOptions options{number("vector_width"), number("work_group_size"), ""};
-  const std::string wrong = Device::complaint(options);
-  if (!wrong.empty()) throw ConfigError(fmt::format("{}: 'kernels' asks for {}", kernels.place(), wrong));
-  return options;
-}
-
 ParameterTable experiment_table() {
   std::vector<Parameter> rows{
       text("name").optional().doc("of the experiment; the file's name by default"),
@@ -143,13 +111,12 @@ ParameterTable experiment_table() {
   return ParameterTable(std::move(rows));
 }
 
-bool ExperimentPlan::has_handles() const { return !experiment.values.sections("handles").empty(); }
-
 void ExperimentPlan::keep_quick_runs() {
   const auto& quick = experiment.values.words("quick");
   if (quick.empty()) return;
-  std::erase_if(
-      runs, [&](const Run& run) { return std::find(quick.begin(), quick.end(), run.name) == quick.end(); });
+  std::erase_if(runs, [&](const ExperimentRun& run) {
+    return std::find(quick.begin(), quick.end(), run.name) == quick.end();
+  });
 }
 
 ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& registry) {

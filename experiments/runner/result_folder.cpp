@@ -1,11 +1,14 @@
 #include "experiments/runner/result_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <set>
@@ -23,6 +26,7 @@ namespace fs = std::filesystem;
 using Files = ResultFolder::Files;
 
 constexpr const char* list_name = ".pliant";
+constexpr const char* replaced_name = ".replaced";  ///< in the unfinished folder, for the old result
 constexpr const char* list_head =
     "# The result's files, which the next result replaces; it touches no others.\n";
 
@@ -32,8 +36,8 @@ std::mutex& guard() {
   return mutex;
 }
 
-std::set<const ResultFolder*>& open_folders() {
-  static std::set<const ResultFolder*> folders;
+std::set<ResultFolder*>& open_folders() {
+  static std::set<ResultFolder*> folders;
   return folders;
 }
 
@@ -69,12 +73,30 @@ void write_list(const fs::path& folder, const Files& files) {
   write_file((folder / list_name).string(), {text.begin(), text.end()});
 }
 
-/// All files below a folder, seen from it.
+/// All files of a result in a folder, seen from it.
 Files files_below(const fs::path& folder) {
   Files files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(folder));
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const fs::path file = entry.path().lexically_relative(folder);
+    if (!entry.is_directory() && file != list_name) files.push_back(file);
+  }
   return files;
+}
+
+/// Whether the folder is one that results are begun in, or could be.
+bool is_of_results(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(fs::symlink_status(folder, ignored)) &&
+         (fs::exists(folder / list_name, ignored) || fs::exists(folder / replaced_name, ignored) ||
+          fs::is_empty(folder, ignored));
+}
+
+/// Whether the open folder is still the one of that name.
+bool is_at(int open, const fs::path& folder) {
+  struct stat ours {};
+  struct stat there {};
+  return ::fstat(open, &ours) == 0 && ::stat(folder.c_str(), &there) == 0 && ours.st_ino == there.st_ino &&
+         ours.st_dev == there.st_dev;
 }
 
 /// The numbers of a result: first to go, and last to come, so that a result which has them is whole.
@@ -114,18 +136,22 @@ bool is_input(const fs::path& file, const Files& inputs) {
 
 }  // namespace
 
-ResultFolder::ResultFolder(const fs::path& folder, const Files& files, const Files& inputs)
+ResultFolder::ResultFolder(const fs::path& folder, const Files& files, const Files& inputs,
+                           Leftovers leftovers)
     : folder_(folder) {
   check_free(files, inputs);
   const std::scoped_lock lock(guard());
   open();
+  is_kept_ = true;  // until it is decided what becomes of it
+  if (leftovers == Leftovers::go) clear_but({});
   open_folders().insert(this);
 }
 
 ResultFolder::~ResultFolder() {
   const std::scoped_lock lock(guard());
   open_folders().erase(this);
-  if (!unfinished_.empty()) abandon();
+  if (!unfinished_.empty() && !is_kept_) abandon();
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void ResultFolder::check_free(const Files& files, const Files& inputs) const {
@@ -157,17 +183,42 @@ void ResultFolder::open() {
   if (error || !fs::is_directory(folder_, error))
     throw DataError(fmt::format("{}: the output folder cannot be made: {}", folder_.string(),
                                 error ? error.message() : "there is a file of this name"));
-  std::string name = (folder_ / "unfinished-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) {
-    const int why = errno;
+  unfinished_ = folder_ / "unfinished";
+  try {
+    lock();
+    write_list(unfinished_, {});
+  } catch (const DataError&) {
+    if (lock_ >= 0) ::close(lock_);
+    unfinished_.clear();
     abandon();
-    throw DataError(
-        fmt::format("{}: the output folder cannot be written: {}", folder_.string(), std::strerror(why)));
+    throw;
   }
-  unfinished_ = name;
 }
 
-void ResultFolder::abandon() const {
+/// The lock is gone with the process, however that ends.
+void ResultFolder::lock() {
+  do {
+    if (lock_ >= 0) ::close(lock_);
+    if (::mkdir(unfinished_.c_str(), 0777) != 0 && errno != EEXIST)
+      throw DataError(
+          fmt::format("{}: the output folder cannot be written: {}", folder_.string(), std::strerror(errno)));
+    if (!is_of_results(unfinished_))
+      throw DataError(
+          fmt::format("{} is not of an earlier result, and results are begun there; choose another "
+                      "folder with --out",
+                      unfinished_.string()));
+    lock_ = ::open(unfinished_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0)
+      throw DataError(fmt::format("{}: cannot be read: {}", unfinished_.string(), std::strerror(errno)));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      throw DataError(
+          fmt::format("{}: another process is writing a result here; wait for its end, or choose "
+                      "another folder with --out",
+                      folder_.string()));
+  } while (!is_at(lock_, unfinished_));  // unless the process before has just put its result in place
+}
+
+void ResultFolder::abandon() {
   std::error_code ignored;
   // Another thread may still be writing into it; it cannot make the folder anew.
   for (int i = 0; i < 200 && !unfinished_.empty() && fs::exists(unfinished_, ignored); ++i) {
@@ -198,7 +249,7 @@ void ResultFolder::commit() {
 /// All that needs room on the disk comes first.
 void ResultFolder::replace_by(Files fresh) const {
   Files old = listed(folder_);
-  const fs::path replaced = unfinished_ / ".replaced";
+  const fs::path replaced = unfinished_ / replaced_name;
   write_list(unfinished_, fresh);
   make_folders(replaced, old);
   make_folders(folder_, fresh);
@@ -213,14 +264,36 @@ void ResultFolder::replace_by(Files fresh) const {
   remove_empty_folders(folder_, old);
 }
 
-fs::path ResultFolder::keep() {
+void ResultFolder::keep_only(const Files& names) {
   const std::scoped_lock lock(guard());
-  return std::exchange(unfinished_, {});
+  clear_but(names);
 }
 
-void ResultFolder::abandon_all() {
+void ResultFolder::clear_but(const Files& names) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(unfinished_)) {
+    const fs::path name = entry.path().filename();
+    if (name != list_name && std::find(names.begin(), names.end(), name) == names.end())
+      fs::remove_all(entry.path(), ignored);
+  }
+  is_kept_ = !names.empty();
+}
+
+void ResultFolder::keep() {
+  const std::scoped_lock lock(guard());
+  is_kept_ = true;
+}
+
+Files ResultFolder::abandon_all() {
   guard().lock();  // for ever
-  for (const ResultFolder* folder : open_folders()) folder->abandon();
+  Files kept;
+  for (ResultFolder* folder : open_folders()) {
+    if (folder->is_kept_)
+      kept.push_back(folder->unfinished_);
+    else
+      folder->abandon();
+  }
+  return kept;
 }
 
 }  // namespace pliant

@@ -8,6 +8,8 @@ std::string version() { return PLIANT_VERSION; }
 
 std::string commit() { return PLIANT_COMMIT; }
 
+std::string build() { return version() + " " + commit() + " " + PLIANT_CHANGES; }
+
 std::vector<std::pair<std::string, std::string>> libraries() {
   return {{"ceres", PLIANT_CERES_VERSION},
           {"eigen", PLIANT_EIGEN_VERSION},

@@ -16,7 +16,7 @@ void warp(Device& device, const PointSet& rest, const Influences& influences, co
   static const std::string source = with_lanes(embedded::framework_deformation_warp_cl);
   auto make_rows = device.kernel(source, "make_rows");
   auto kernel = device.kernel(source, "warp");
-  const cl::Buffer rows = device.allocate(16 * sizeof(float) * node_count);
+  const Buffer rows = device.allocate(16 * sizeof(float) * node_count);
   device.run("warp", make_rows, node_count, 64, static_cast<cl_int>(node_count), node_points.device(device),
              affine.device(device), rows);
   device.run("warp", kernel, (count + width - 1) / width, 16, rest.points.device(device),

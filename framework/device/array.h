@@ -80,7 +80,7 @@ class Array {
     return host_;
   }
 
-  const cl::Buffer& device(Device& device) const {
+  const Buffer& device(Device& device) const {
     if (device_ != nullptr && device_ != &device) host();  // devices exchange through the host
     if (device_ != &device || !device_is_current_) {
       // Another buffer rather than the old one, whose values a clone or a kernel may still read.
@@ -91,7 +91,7 @@ class Array {
     return buffer_;
   }
   /// For kernels that write; the host's copy becomes stale.
-  const cl::Buffer& write_device(Device& device) {
+  const Buffer& write_device(Device& device) {
     settle();
     this->device(device);
     host_is_current_ = false;
@@ -108,7 +108,7 @@ class Array {
 
   mutable std::vector<T> host_;
   std::size_t size_ = 0;
-  mutable cl::Buffer buffer_;
+  mutable Buffer buffer_;
   mutable Device* device_ = nullptr;
   mutable cl::Event arriving_;  ///< of a copy to the host that is under way
   mutable bool host_is_current_ = true;

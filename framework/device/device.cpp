@@ -189,7 +189,7 @@ void Device::enqueue(const std::string& stage, const cl::Kernel& kernel, std::si
   if (measuring_) records_.push_back({stage, kernel, event});
 }
 
-cl::Buffer Device::allocate(std::size_t bytes) const {
+Buffer Device::allocate(std::size_t bytes) const {
   // Asked first, because some drivers give out memory that is not there.
   if (bytes > info_.most_bytes)
     throw DeviceError(
@@ -208,58 +208,58 @@ cl::Buffer Device::allocate(std::size_t bytes) const {
   }
 }
 
-cl::Buffer Device::upload(const void* data, std::size_t bytes) const {
-  cl::Buffer made = allocate(bytes);
+Buffer Device::upload(const void* data, std::size_t bytes) const {
+  Buffer made = allocate(bytes);
   if (bytes == 0) return made;
   ++counts_.uploads;
   counts_.uploaded_bytes += bytes;
   try {
-    pool_->send(queue_, made, data, bytes);
+    staging_.send(queue_, *made, data, bytes);
   } catch (const cl::Error& error) {
     fail(fmt::format("writing {} bytes", bytes), error);
   }
   return made;
 }
 
-cl::Buffer Device::copy(const cl::Buffer& from, std::size_t bytes) const {
-  cl::Buffer made = allocate(bytes);
+Buffer Device::copy(const Buffer& from, std::size_t bytes) const {
+  Buffer made = allocate(bytes);
   if (bytes == 0) return made;
   try {
-    queue_.enqueueCopyBuffer(from, made, 0, 0, bytes);
+    queue_.enqueueCopyBuffer(*from, *made, 0, 0, bytes);
   } catch (const cl::Error& error) {
     fail(fmt::format("copying {} bytes", bytes), error);
   }
   return made;
 }
 
-void Device::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const {
+void Device::write(const Buffer& buffer, const void* data, std::size_t bytes) const {
   if (bytes == 0) return;
   ++counts_.uploads;
   counts_.uploaded_bytes += bytes;
   try {
-    queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data);
+    queue_.enqueueWriteBuffer(*buffer, CL_TRUE, 0, bytes, data);
   } catch (const cl::Error& error) {
     fail(fmt::format("writing {} bytes", bytes), error);
   }
 }
 
-void Device::read(const cl::Buffer& buffer, void* data, std::size_t bytes) const {
+void Device::read(const Buffer& buffer, void* data, std::size_t bytes) const {
   if (bytes == 0) return;
   ++counts_.reads;
   counts_.read_bytes += bytes;
   try {
-    queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data);
+    queue_.enqueueReadBuffer(*buffer, CL_TRUE, 0, bytes, data);
   } catch (const cl::Error& error) {
     fail(fmt::format("reading {} bytes", bytes), error);
   }
 }
 
-cl::Event Device::read_later(const cl::Buffer& buffer, void* data, std::size_t bytes) const {
+cl::Event Device::read_later(const Buffer& buffer, void* data, std::size_t bytes) const {
   ++counts_.reads;
   counts_.read_bytes += bytes;
   cl::Event event;
   try {
-    queue_.enqueueReadBuffer(buffer, CL_FALSE, 0, bytes, data, nullptr, &event);
+    queue_.enqueueReadBuffer(*buffer, CL_FALSE, 0, bytes, data, nullptr, &event);
   } catch (const cl::Error& error) {
     fail(fmt::format("reading {} bytes", bytes), error);
   }
@@ -274,10 +274,10 @@ void Device::wait(const cl::Event& event) const {
   }
 }
 
-void Device::fill_zero(const cl::Buffer& buffer, std::size_t bytes) const {
+void Device::fill_zero(const Buffer& buffer, std::size_t bytes) const {
   if (bytes == 0) return;
   try {
-    queue_.enqueueFillBuffer(buffer, cl_uchar{0}, 0, bytes);
+    queue_.enqueueFillBuffer(*buffer, cl_uchar{0}, 0, bytes);
   } catch (const cl::Error& error) {
     fail(fmt::format("clearing {} bytes", bytes), error);
   }
@@ -293,7 +293,7 @@ void Device::finish() const {
 
 DeviceCounts Device::counts() const {
   DeviceCounts counts = counts_;
-  counts.allocations = pool_->allocations();
+  counts.allocations = pool_->allocations() + staging_.allocations();
   return counts;
 }
 

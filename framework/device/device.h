@@ -99,26 +99,26 @@ class Device {
 
   /// A buffer of at least so many uninitialised bytes; DeviceError names the size, and what the device has,
   /// when it does not fit. Buffers that all others have dropped are given out again.
-  cl::Buffer allocate(std::size_t bytes) const;
+  Buffer allocate(std::size_t bytes) const;
 
   /// A buffer with a copy of host values, which may change at once; only enqueues.
-  cl::Buffer upload(const void* data, std::size_t bytes) const;
+  Buffer upload(const void* data, std::size_t bytes) const;
   template <class T>
-  cl::Buffer upload(const std::vector<T>& values) const {
+  Buffer upload(const std::vector<T>& values) const {
     return upload(values.data(), sizeof(T) * values.size());
   }
 
   /// A buffer with the values that another one will have by then; only enqueues.
-  cl::Buffer copy(const cl::Buffer& from, std::size_t bytes) const;
+  Buffer copy(const Buffer& from, std::size_t bytes) const;
 
   /// Waits for everything enqueued so far.
-  void write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const;
+  void write(const Buffer& buffer, const void* data, std::size_t bytes) const;
   /// Waits for everything enqueued so far.
-  void read(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
+  void read(const Buffer& buffer, void* data, std::size_t bytes) const;
   /// Only enqueues: `data` must stay where it is until wait() for what is returned.
-  cl::Event read_later(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
+  cl::Event read_later(const Buffer& buffer, void* data, std::size_t bytes) const;
   void wait(const cl::Event& event) const;
-  void fill_zero(const cl::Buffer& buffer, std::size_t bytes) const;
+  void fill_zero(const Buffer& buffer, std::size_t bytes) const;
   void finish() const;
 
   DeviceCounts counts() const;
@@ -131,9 +131,15 @@ class Device {
 
  private:
   template <class T>
+  static const T& argument(const T& value) {
+    return value;
+  }
+  static const cl::Buffer& argument(const Buffer& buffer) { return *buffer; }
+
+  template <class T>
   void set_argument(cl::Kernel& kernel, cl_uint index, const T& value) {
     try {
-      kernel.setArg(index, value);
+      kernel.setArg(index, argument(value));
     } catch (const cl::Error& error) {
       fail("setting argument " + std::to_string(index) + " of " + kernel.getInfo<CL_KERNEL_FUNCTION_NAME>(),
            error);
@@ -161,6 +167,7 @@ class Device {
   std::deque<Program> programs_;  // few: told apart by the length of their sources sooner than by any hash
   int programs_built_ = 0;
   std::unique_ptr<BufferPool> pool_;
+  mutable StagingRing staging_;
   mutable DeviceCounts counts_;
   bool measuring_ = false;
   struct Record {

@@ -1,6 +1,6 @@
-// Maps of points, one a pixel of a window of a camera's image, (0, 0, 0) where there is none. `camera`: fx, fy,
-// cx, cy. `frame`: left, top, width and height of the window, then width and height of the image. Compiled
-// behind lanes.cl.
+// Maps of points, one a pixel of a window of a camera's image, (0, 0, 0) where there is none. `camera`: fx,
+// fy, cx, cy. `frame`: left, top, width and height of the window, then width and height of the image.
+// Compiled behind lanes.cl.
 
 #define FARTHEST 1e18f  // farthest_depth of image.h
 
@@ -56,8 +56,8 @@ Pixels project(Vector p, float4 camera, int8 frame) {
   const Truth in_image =
       p.z > (Lanes)0 && u >= (Lanes)0 && v >= (Lanes)0 && u < (Lanes)frame.s4 && v < (Lanes)frame.s5;
   const Lanes column = u - (Lanes)frame.s0, row = v - (Lanes)frame.s1;
-  const Truth in_window = in_image && column >= (Lanes)0 && row >= (Lanes)0 && column < (Lanes)frame.s2 &&
-                          row < (Lanes)frame.s3;
+  const Truth in_window =
+      in_image && column >= (Lanes)0 && row >= (Lanes)0 && column < (Lanes)frame.s2 && row < (Lanes)frame.s3;
   return select(select(NONE, NOT_IN_WINDOW, in_image),
                 TO_INT(WHERE(in_window, row)) * frame.s2 + TO_INT(WHERE(in_window, column)), in_window);
 }

@@ -37,23 +37,35 @@ cl::Kernel depth_kernel(Device& device, const std::string& name) {
 
 namespace {
 
+/// is_depth without a branch: compilers make vectors of loops over it.
+bool has_depth(float depth) {
+  return static_cast<bool>(static_cast<int>(depth > 0) & static_cast<int>(depth < farthest_depth));
+}
+
+bool any_depth(const float* row, int width) {
+  int any = 0;
+  for (int u = 0; u < width; ++u) any |= static_cast<int>(has_depth(row[u]));
+  return any != 0;
+}
+
 /// The smallest window that holds all pixels with depth; empty when there is none.
 PixelWindow window_of_depth(const Frame& frame) {
   const int width = frame.depth.width();
   const int height = frame.depth.height();
   int left = width, right = 0, top = height, bottom = 0;
-  const auto has_depth = [&](const float* row, const std::uint8_t* mask, int u) {
-    return is_depth(row[u]) && (mask == nullptr || mask[u] != 0);
+  const auto counts = [](const float* row, const std::uint8_t* mask, int u) {
+    return has_depth(row[u]) && (mask == nullptr || mask[u] != 0);
   };
   for (int v = 0; v < height; ++v) {
     const auto begin = static_cast<std::size_t>(v) * static_cast<std::size_t>(width);
     const float* row = frame.depth.data() + begin;
     const std::uint8_t* mask = frame.mask.empty() ? nullptr : frame.mask.data() + begin;
+    if (!any_depth(row, width)) continue;
     int first = 0;
-    while (first < width && !has_depth(row, mask, first)) ++first;
+    while (first < width && !counts(row, mask, first)) ++first;
     if (first == width) continue;
     int last = width - 1;
-    while (last >= right && !has_depth(row, mask, last)) --last;
+    while (last >= right && !counts(row, mask, last)) --last;
     left = std::min(left, first);
     right = std::max(right, last + 1);
     top = std::min(top, v);
@@ -77,7 +89,7 @@ DepthMap::DepthMap(const Frame& frame) : DepthMap(window_of_depth(checked(frame)
         static_cast<std::size_t>(window.top + row) * static_cast<std::size_t>(frame.depth.width()) +
         static_cast<std::size_t>(window.left);
     const float* given = frame.depth.data() + begin;
-    for (int u = 0; u < window.width; ++u) to[u] = is_depth(given[u]) ? given[u] : no_depth;
+    for (int u = 0; u < window.width; ++u) to[u] = has_depth(given[u]) ? given[u] : no_depth;
     if (frame.mask.empty()) continue;
     const std::uint8_t* mask = frame.mask.data() + begin;
     for (int u = 0; u < window.width; ++u) to[u] = mask[u] != 0 ? to[u] : no_depth;

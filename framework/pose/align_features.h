@@ -7,22 +7,12 @@
 
 #include "framework/core/registry.h"
 #include "framework/pose/alignment.h"
+#include "framework/pose/rigid_ransac.h"
 
 namespace pliant {
 
-struct RansacOptions {
-  int iterations = 10000;
-  double inlier_distance = 30;  ///< mm
-};
-
 /// "7 of 12 feature matches agree on a rigid motion"
 std::string agreement(int inliers, int matches);
-
-/// The rigid motion that most matches agree with, fitted to all of those. Fewer than three matches, or
-/// none that span a triangle, give the identity without inliers.
-/// The same seed gives the same bits with any standard library.
-AlignmentResult fit_rigid_ransac(const PointMatches& matches, const RansacOptions& options,
-                                 std::uint64_t seed);
 
 /// The matches that a deformation may have made: after `motion` they lie nearer than `max_deformation` (mm),
 /// and at least half of the six matches nearest to each keep their distance to it to within a quarter (plus 5

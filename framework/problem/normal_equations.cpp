@@ -41,7 +41,7 @@ struct NormalEquations::Kind {
   NodeLists lists;
   Array<int> matrix_starts, matrix_entries;
   Array<int> gradient_starts, gradient_entries;
-  cl::Buffer lever_arms;  ///< of constraints
+  Buffer lever_arms;  ///< of constraints
 };
 
 struct NormalEquations::TermKernels {
@@ -52,13 +52,13 @@ struct NormalEquations::TermKernels {
   cl::Kernel energy;
   cl::Kernel gather_matrix;    // mm
   cl::Kernel gather_gradient;  // mv
-  cl::Buffer rows;             // what evaluate leaves for gathering
+  Buffer rows;                 // what evaluate leaves for gathering
 };
 
 /// The normal equations along the steps of the problem's transform.
 struct NormalEquations::Projected {
-  cl::Buffer blocks;
-  cl::Buffer gradient;
+  Buffer blocks;
+  Buffer gradient;
   cl::Kernel project_blocks;
   cl::Kernel project_gradient;
 };
@@ -94,9 +94,9 @@ NormalEquations::NormalEquations(Device& device, Problem& problem) : device_(&de
                 device.kernel(source, "project_blocks"), device.kernel(source, "project_gradient")});
 }
 
-const cl::Buffer& NormalEquations::blocks() const { return projected_ ? projected_->blocks : blocks_; }
+const Buffer& NormalEquations::blocks() const { return projected_ ? projected_->blocks : blocks_; }
 
-const cl::Buffer& NormalEquations::gradient() const { return projected_ ? projected_->gradient : gradient_; }
+const Buffer& NormalEquations::gradient() const { return projected_ ? projected_->gradient : gradient_; }
 
 void NormalEquations::add_term(const Term& term) {
   auto& device = *device_;
@@ -151,7 +151,7 @@ cl_float NormalEquations::loss_scale_of(const TermKernels& term) {
   return static_cast<cl_float>(term.term->energy.loss.scale);
 }
 
-void NormalEquations::assemble(const cl::Buffer& status) {
+void NormalEquations::assemble(const Buffer& status) {
   auto clear = device_->kernel(embedded::framework_problem_assembly_cl, "clear",
                                fmt::format("-DSLOTS={}", max_influences));
   const auto block_values = 144 * block_rows_.size();
@@ -162,7 +162,7 @@ void NormalEquations::assemble(const cl::Buffer& status) {
   if (projected_) project(status);
 }
 
-void NormalEquations::project(const cl::Buffer& status) {
+void NormalEquations::project(const Buffer& status) {
   const auto& forms = problem_->unknowns().device(*device_);
   device_->run("mm", projected_->project_blocks, block_rows_.size(), group_size, status, block_count(),
                block_rows_.device(*device_), block_columns_.device(*device_), forms, blocks_,
@@ -171,7 +171,7 @@ void NormalEquations::project(const cl::Buffer& status) {
                node_count(), forms, gradient_, projected_->gradient);
 }
 
-void NormalEquations::assemble_term(TermKernels& term, const cl::Buffer& status) {
+void NormalEquations::assemble_term(TermKernels& term, const Buffer& status) {
   auto& device = *device_;
   const auto& unknowns = problem_->unknowns().device(device);
   const auto& node_points = problem_->node_points().device(device);
@@ -214,7 +214,7 @@ void NormalEquations::assemble_term(TermKernels& term, const cl::Buffer& status)
   }
 }
 
-void NormalEquations::sum_energy(const cl::Buffer& unknowns, const cl::Buffer& status) {
+void NormalEquations::sum_energy(const Buffer& unknowns, const Buffer& status) {
   auto& device = *device_;
   const auto& node_points = problem_->node_points().device(device);
   std::size_t offset = 0;

@@ -32,7 +32,7 @@ class BoundSolver {
  public:
   virtual ~BoundSolver() = default;
   /// Minimises from problem.unknowns() and leaves the solution there. A device solver enqueues, and waits
-  /// only between iterations, to launch none in vain; not for the last.
+  /// only for the solve before and between iterations, to launch none in vain; not for the last.
   virtual void solve() = 0;
   /// Waits, and tells of every solve since binding.
   virtual std::vector<SolverSummary> summaries() = 0;

@@ -138,7 +138,7 @@ LowerBlocks find_lower_blocks(const std::vector<const Incidences*>& incidences,
 }
 
 void compute_lever_arms(Device& device, const Constraints& constraints, const Array<float>& node_points,
-                        int first, int per_instance, const cl::Buffer& lever_arms) {
+                        int first, int per_instance, const Buffer& lever_arms) {
   auto kernel = device.kernel(embedded::framework_problem_lever_arms_cl, "lever_arms_of_constraints");
   const auto& influences = constraints.influences;
   device.run("weights", kernel, constraints.size(), 64, constraints.points.device(device),

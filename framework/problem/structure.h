@@ -61,6 +61,6 @@ Incidences edge_incidences(const DeformationGraph& graph);
 /// instance: for each slot w (p - g, 1), by which the rows of the node's [D | t] move the point; empty slots
 /// get zeros.
 void compute_lever_arms(Device& device, const Constraints& constraints, const Array<float>& node_points,
-                        int first, int per_instance, const cl::Buffer& lever_arms);
+                        int first, int per_instance, const Buffer& lever_arms);
 
 }  // namespace pliant

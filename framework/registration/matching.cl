@@ -11,10 +11,11 @@ Vector load_selected(global const int* selected, int count, global const float* 
   return gather(LOAD_INT(at), vectors);
 }
 
-// Of those that have a target point at the pixel that they project to, that pixel.
-Pixels target_pixels(Vector p, float4 camera, int8 frame, global const float* target_points) {
+// Of those that have a target point at the pixel that they project to, that pixel; `q`: the target points.
+Pixels target_pixels(Vector p, float4 camera, int8 frame, global const float* target_points, Vector* q) {
   const Pixels pixels = project(p, camera, frame);
-  return select(NONE, pixels, gather(pixels, target_points).z > (Lanes)0);
+  *q = gather(pixels, target_points);
+  return select(NONE, pixels, q->z > (Lanes)0);
 }
 
 Lanes distances(Vector p, Vector q) {
@@ -132,16 +133,16 @@ int descend(float3 p, int pixel, int steps, int8 frame, global const float* targ
 
 // The pixels of the target points nearest to p that a walk of at most `steps` steps from `pixels` finds: from
 // the foot of p on one tangent plane to that on the next; where that comes no nearer, from pixel to pixel.
-Pixels closest_pixels(Vector p, Pixels pixels, int steps, float4 camera, int8 frame,
+// `q`: the target points at `pixels`.
+Pixels closest_pixels(Vector p, Pixels pixels, Vector q, int steps, float4 camera, int8 frame,
                       global const float* target_points, global const float* target_normals) {
-  Vector q = gather(pixels, target_points);
   Lanes least = distances(p, q);
   Truth moving = pixels >= (Pixels)0, arrived = 0;
   for (int step = 0; step < steps && ANY(moving); ++step) {
     const Vector n = gather(pixels, target_normals);
     const Vector foot = minus(p, scaled(n, inner(minus(p, q), n)));
-    const Pixels next = target_pixels(foot, camera, frame, target_points);
-    const Vector at_next = gather(next, target_points);
+    Vector at_next;
+    const Pixels next = target_pixels(foot, camera, frame, target_points, &at_next);
     const Lanes away = distances(p, at_next);
     arrived = select(arrived, next == pixels, moving);
     moving = moving && next >= (Pixels)0 && away < least;
@@ -163,9 +164,10 @@ Pixels closest_pixels(Vector p, Pixels pixels, int steps, float4 camera, int8 fr
 }
 
 // As `pixels`; of points without one that may be seen, the nearest acceptable one within `radius` pixels.
+// `q`: the target points at `pixels`, then at those.
 Pixels look_around(Pixels pixels, Truth facing, Vector p, Vector normals, int radius, float4 camera,
                    int8 frame, global const float* target_points, global const float* target_normals,
-                   float max_distance, float least_cosine) {
+                   float max_distance, float least_cosine, Vector* q) {
   const Truth missing = facing && pixels < (Pixels)0;
   if (!ANY(missing)) return pixels;
   int at[WIDTH], is_missing[WIDTH];
@@ -179,6 +181,7 @@ Pixels look_around(Pixels pixels, Truth facing, Vector p, Vector normals, int ra
       at[lane] =
           nearest_pixel((float3)(x[lane], y[lane], z[lane]), (float3)(nx[lane], ny[lane], nz[lane]), radius,
                         camera, frame, target_points, target_normals, max_distance, least_cosine);
+  *q = gather(LOAD_INT(at), target_points);
   return LOAD_INT(at);
 }
 
@@ -200,24 +203,27 @@ kernel void match(int count, global const int* selected, global const float* res
   const Vector p = load_selected(selected + first, there, moved);
   const Vector n = load_selected(selected + first, there, normals);
   const Truth facing = are_facing(p, n, least_facing);
-  Pixels pixels = select(NONE, target_pixels(p, camera, frame, target_points), facing);
+  Vector q;
+  Pixels pixels = select(NONE, target_pixels(p, camera, frame, target_points, &q), facing);
   if (hole_radius > 0)
     pixels = look_around(pixels, facing, p, n, hole_radius, camera, frame, target_points, target_normals,
-                         max_distance, least_cosine);
-  if (steps > 0) pixels = closest_pixels(p, pixels, steps, camera, frame, target_points, target_normals);
+                         max_distance, least_cosine, &q);
+  if (steps > 0) {
+    pixels = closest_pixels(p, pixels, q, steps, camera, frame, target_points, target_normals);
+    q = gather(pixels, target_points);
+  }
   pixels = select(NONE, pixels,
-                  are_acceptable(p, n, gather(pixels, target_points), gather(pixels, target_normals),
-                                 max_distance, least_cosine));
+                  pixels >= (Pixels)0 &&
+                      are_acceptable(p, n, q, gather(pixels, target_normals), max_distance, least_cosine));
   if (search_radius > 0)
     pixels = look_around(pixels, facing, p, n, search_radius, camera, frame, target_points, target_normals,
-                         max_distance, least_cosine);
+                         max_distance, least_cosine, &q);
   int at[WIDTH];
   STORE_INT(pixels, at);
   for (int lane = 0; lane < there; ++lane)
     if (rim > 0 && at[lane] >= 0 && is_rim(at[lane], rim, camera, frame, target_points)) at[lane] = -1;
   pixels = LOAD_INT(at);
-  const Vector pull =
-      only(pixels >= (Pixels)0, minus(gather(pixels, target_points), load_vectors(rest + 3 * first, there)));
+  const Vector pull = only(pixels >= (Pixels)0, minus(q, load_vectors(rest + 3 * first, there)));
   Vector plane = gather(pixels, target_normals);
   if (symmetric) plane = only(inner(plane, plane) > (Lanes)0, mean_normals(plane, n));
   float x[WIDTH], y[WIDTH], z[WIDTH], nx[WIDTH], ny[WIDTH], nz[WIDTH];
@@ -256,11 +262,11 @@ kernel void measure(int count, global const float* moved, global const float* no
   const Vector p = load_vectors(moved + 3 * first, count - first);
   const Vector n = load_vectors(normals + 3 * first, count - first);
   const Truth facing = are_facing(p, n, least_facing);
-  Pixels pixels = target_pixels(p, camera, frame, target_points);
+  Vector q;
+  Pixels pixels = target_pixels(p, camera, frame, target_points, &q);
   if (hole_radius > 0)
     pixels = look_around(pixels, facing, p, n, hole_radius, camera, frame, target_points, target_normals,
-                         max_distance, least_cosine);
-  const Vector q = gather(pixels, target_points);
+                         max_distance, least_cosine, &q);
   const Truth is_known =
       facing && are_acceptable(p, n, q, gather(pixels, target_normals), max_distance, least_cosine);
   float values[WIDTH];
@@ -285,10 +291,15 @@ kernel void sum_residuals(int count, global const float* moved, float4 camera, i
     for (int lane = 0; lane < WIDTH; ++lane) values[lane] = first + lane < end ? residual[first + lane] : -1;
     const Lanes r = LOAD(values);
     const Lanes there = WHERE(LANE_OFFSETS < (Lanes)(end - first), (Lanes)1);
-    const Pixels pixels = target_pixels(p, camera, frame, target_points);
-    landed += WHERE(pixels >= (Pixels)0 || r >= (Lanes)0, there);
-    const Lanes known = WHERE(r >= (Lanes)0, (Lanes)1);
-    const Lanes counted = select((Lanes)cut, fmin(r, (Lanes)cut), r >= (Lanes)0);
+    const Truth have_residual = r >= (Lanes)0;
+    Truth have_landed = have_residual;
+    if (ANY(!have_residual)) {
+      Vector q;
+      have_landed = have_landed || target_pixels(p, camera, frame, target_points, &q) >= (Pixels)0;
+    }
+    landed += WHERE(have_landed, there);
+    const Lanes known = WHERE(have_residual, (Lanes)1);
+    const Lanes counted = select((Lanes)cut, fmin(r, (Lanes)cut), have_residual);
     const Truth is_finite =
         fabs(p.x) < (Lanes)FARTHEST && fabs(p.y) < (Lanes)FARTHEST && fabs(p.z) < (Lanes)FARTHEST;
     sum += known * fmax(r, (Lanes)0);

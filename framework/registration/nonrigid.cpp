@@ -383,12 +383,6 @@ NonRigidResult Loop::take_result() {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const NonRigidMethod& method, const NonRigidResult::Counts& counts) {
-  if (counts.nodes > method.nearest_nodes) return {};
-  return {fmt::format("the graph has {} node(s): all of them move every point, though nearest_nodes is {}",
-                      counts.nodes, method.nearest_nodes)};
-}
-
 NonRigid::NonRigid(const NonRigidMethod& method, Device& device) : method_(method), device_(device) {}
 
 NonRigidResult NonRigid::run(const NonRigidInput& input, const Observer& observer) const {

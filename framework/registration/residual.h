@@ -35,7 +35,7 @@ class ResidualMeter {
   std::size_t chunks_;
   float cut_;
   Array<float> per_point_;
-  cl::Buffer partials_;
+  Buffer partials_;
   Array<float> total_;
 };
 

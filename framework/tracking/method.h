@@ -11,7 +11,8 @@ namespace pliant {
 
 /// How a pair is registered: what comes before non-rigid registration, and that.
 struct Method : NonRigidMethod {
-  std::unique_ptr<DepthFilter> filter;
+  std::unique_ptr<DepthFilter> filter;         ///< of the target, and of the source where that has none
+  std::unique_ptr<DepthFilter> source_filter;  ///< null: `filter`
   std::unique_ptr<Alignment> alignment;
 };
 

@@ -1,24 +1,12 @@
 #include "framework/tracking/register_pair.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "framework/core/stopwatch.h"
-#include "framework/registration/nonrigid.h"
 #include "framework/tracking/scene.h"
 
 namespace pliant {
 namespace {
-
-Observer telling(const ProgressSink& progress, const std::string& name, int max_iterations) {
-  if (!progress) return {};
-  return [&progress, &name, max_iterations](const IterationView& view) {
-    const double done = view.is_last ? 1.0 : static_cast<double>(view.number) / max_iterations;
-    progress({name, done,
-              fmt::format("iteration {}: residual {:.3f} mm", view.number, view.measured.residual_mean)});
-  };
-}
 
 /// Moves each point that was given as the filtered one in its place was moved. The transforms are not applied
 /// to it: nothing determines what they do across the surface they were fitted to, and noise would be
@@ -31,14 +19,12 @@ void move_unfiltered(const ScenePoints& at_rest, std::vector<Eigen::Vector3f>& p
 }  // namespace
 
 RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,
-                                 std::uint64_t seed, const ProgressSink& progress) {
+                                 std::uint64_t seed, const Observer& observer) {
   const Stopwatch watch;
   device.take_stage_times();  // of whatever came before
   StageTimes times;
   Scene scene = make_scene(pair, method, device, seed, times);
-  NonRigidResult deformed =
-      NonRigid(method, device)
-          .run(input_of(scene), telling(progress, pair.name, method.stopping.max_iterations));
+  NonRigidResult deformed = NonRigid(method, device).run(input_of(scene), observer);
   ScenePoints at_rest = read_points(scene);
   move_unfiltered(at_rest, deformed.points);
   for (const auto& [stage, time] : times) deformed.time_ms[stage] += time;

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "framework/core/log.h"
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
+#include "framework/registration/nonrigid.h"
 #include "framework/tracking/method.h"
 #include "framework/tracking/result.h"
 
@@ -17,7 +17,7 @@ namespace pliant {
 /// The stages that run on the device are told in `time_ms` only while the device measures stages
 /// (Device::measure_stages).
 RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,
-                                 std::uint64_t seed, const ProgressSink& progress = {});
+                                 std::uint64_t seed, const Observer& observer = {});
 
 /// The problem of the first outer iteration: source aligned, graph built, constraints matched once, nothing
 /// solved. Solvers can be compared on it.

@@ -24,8 +24,12 @@ SurfaceMap make_map(const DepthMap& given, const std::optional<DepthMap>& filter
 std::vector<Eigen::Vector2i> pixels_at(const std::vector<int>& offsets, const PixelWindow& window) {
   std::vector<Eigen::Vector2i> pixels;
   pixels.reserve(offsets.size());
-  for (const int offset : offsets)
-    pixels.emplace_back(window.left + offset % window.width, window.top + offset / window.width);
+  int begin = 0;  // of the row: offsets ascend, and a division each would take longer
+  int row = 0;
+  for (const int offset : offsets) {
+    for (; offset - begin >= window.width; begin += window.width) ++row;
+    pixels.emplace_back(window.left + offset - begin, window.top + row);
+  }
   return pixels;
 }
 
@@ -63,7 +67,8 @@ Scene make_scene(const FramePair& pair, const Method& method, Device& device, st
   check(pair);
   // Enqueued first: the device makes the surfaces while the host finds the alignment.
   const DepthMap depth = make_depth_map(pair.source, times);
-  const auto filtered = method.filter->filter(device, depth, pair.camera);
+  const DepthFilter& source_filter = method.source_filter ? *method.source_filter : *method.filter;
+  const auto filtered = source_filter.filter(device, depth, pair.camera);
   const SurfaceMap map = make_map(depth, filtered, pair.camera, device);
   const DepthMap target_depth = make_depth_map(pair.target, times);
   SurfaceMap target =

@@ -150,10 +150,10 @@ class QuadtreeNodes : public NodeSelection {
   int map_left_;
   int map_top_;
   cl_int2 size_;       ///< of the map
-  cl::Buffer map_;     ///< point at each pixel
+  Buffer map_;         ///< point at each pixel
   Array<int> centre_;  ///< per cell; see quadtree.cl
   Array<int> state_;   ///< per cell; see quadtree.cl
-  cl::Buffer totals_;  ///< per cell: sum and number of its known residuals
+  Buffer totals_;      ///< per cell: sum and number of its known residuals
   std::vector<int> nodes_;
 };
 

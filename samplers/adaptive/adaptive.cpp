@@ -84,7 +84,7 @@ class AdaptiveSelection : public PointSelection {
   cl_int2 corner_;        ///< pixel of the map's corner
   cl_int2 size_;          ///< of the map
   cl_int2 masks_;         ///< how many touch the map, across and down
-  cl::Buffer map_;        ///< point at each pixel
+  Buffer map_;            ///< point at each pixel
   Array<int> is_centre_;  ///< per point: is it the one at the centre of its mask?
   Array<int> flags_;      ///< per point: how many are constrained in its mask, 0 where it is not
   std::vector<int> points_;

@@ -13,7 +13,7 @@ class ChosenMinimiser : public Minimiser {
  public:
   ChosenMinimiser(std::unique_ptr<Minimiser> minimiser, std::string reason)
       : minimiser_(std::move(minimiser)), reason_(std::move(reason)) {}
-  void enqueue(const cl::Buffer& status) override { minimiser_->enqueue(status); }
+  void enqueue(const Buffer& status) override { minimiser_->enqueue(status); }
   std::string description() const override { return minimiser_->description() + ": " + reason_; }
 
  private:

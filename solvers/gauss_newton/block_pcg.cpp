@@ -33,7 +33,7 @@ class BlockPcgSteps : public StepSolver {
     step_ = device_.allocate(vector_bytes * nodes);
   }
 
-  void solve(const cl::Buffer& status) override {
+  void solve(const Buffer& status) override {
     device_.run("mm", expand_, static_cast<std::size_t>(block_count_), 16, status, block_count_, sources_,
                 equations_.blocks(), rows_);
     device_.run("solver", invert_, static_cast<std::size_t>(node_count_), 16, status, node_count_, starts_,
@@ -41,7 +41,7 @@ class BlockPcgSteps : public StepSolver {
     device_.run("solver", solve_, local_, local_, status, node_count_, starts_, columns_, rows_, inverses_,
                 equations_.gradient(), vectors_, step_);
   }
-  const cl::Buffer& step() const override { return step_; }
+  const Buffer& step() const override { return step_; }
 
  private:
   /// Rows of both triangles out of the lower one, the diagonal block first in each.
@@ -82,8 +82,8 @@ class BlockPcgSteps : public StepSolver {
   cl_int node_count_;
   cl_int block_count_ = 0;
   std::size_t local_;
-  cl::Buffer starts_, sources_, columns_;
-  cl::Buffer rows_, inverses_, vectors_, step_;
+  Buffer starts_, sources_, columns_;
+  Buffer rows_, inverses_, vectors_, step_;
   cl::Kernel expand_, invert_, solve_;
 };
 

@@ -36,10 +36,13 @@ kernel void negate(global const int* status, int unknowns, int n, global const f
   x[i] = i < unknowns ? -gradient[i] : 0;
 }
 
-// One work-item. U = L^T by rows, so that every inner loop runs along memory.
+// One work-item. U = L^T by rows, so that every inner loop runs along memory. `inverses` and their
+// transposes: of all diagonal blocks, one after the other.
 kernel void diagonal(global int* status, int k, int n, global float* A, global float* U,
-                     global float* inverse, global float* inverse_transposed) {
+                     global float* inverses, global float* inverses_transposed) {
   if (status[0] || status[1]) return;
+  global float* inverse = inverses + k * BLOCK * BLOCK;
+  global float* inverse_transposed = inverses_transposed + k * BLOCK * BLOCK;
   global float* block = A + k * BLOCK * n + k * BLOCK;
   for (int i = 0; i < BLOCK; ++i)
     for (int j = 0; j < BLOCK; ++j) U[i * BLOCK + j] = j >= i ? block[j * n + i] : 0;
@@ -82,7 +85,8 @@ kernel void diagonal(global int* status, int k, int n, global float* A, global f
 // Four rows of L_ik per work-item; also kept transposed in tiles of TILE rows (each BLOCK x TILE), so that
 // `update` runs along memory and its operands do not fall on each other in the cache.
 kernel void panel(global const int* status, int k, int n, global float* A,
-                  global const float* inverse_transposed, global float* tiles) {
+                  global const float* inverses_transposed, global float* tiles) {
+  global const float* inverse_transposed = inverses_transposed + k * BLOCK * BLOCK;
   const int row = (k + 1) * BLOCK + 4 * get_global_id(0);
   if (status[0] || status[1] || row >= n) return;
   float16 sum[16];
@@ -147,8 +151,9 @@ float dot64(global const float* a, const float* b) {
 }
 
 // x_k = M x_k with M = L_kk^-1 (forward) or its transpose (backward). One work-item.
-kernel void solve_diagonal(global const int* status, int k, global const float* M, global float* x) {
+kernel void solve_diagonal(global const int* status, int k, global const float* blocks, global float* x) {
   if (status[0] || status[1]) return;
+  global const float* M = blocks + k * BLOCK * BLOCK;
   float old[BLOCK];
   for (int i = 0; i < BLOCK; ++i) old[i] = x[k * BLOCK + i];
   for (int i = 0; i < BLOCK; ++i) x[k * BLOCK + i] = dot64(M + i * BLOCK, old);

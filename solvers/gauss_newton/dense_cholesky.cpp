@@ -39,12 +39,12 @@ class DenseCholeskySteps : public StepSolver {
         inverses_transposed_(device_.allocate(sizeof(float) * block * size())),
         step_(device_.allocate(sizeof(float) * size())) {}
 
-  void solve(const cl::Buffer& status) override {
+  void solve(const Buffer& status) override {
     form(status);
     factor(status);
     substitute(status);
   }
-  const cl::Buffer& step() const override { return step_; }
+  const Buffer& step() const override { return step_; }
 
  private:
   std::size_t size() const { return static_cast<std::size_t>(n_); }
@@ -52,14 +52,8 @@ class DenseCholeskySteps : public StepSolver {
     static const std::string source = with_reductions(embedded::solvers_gauss_newton_dense_cholesky_cl);
     return device_.kernel(source, name, fmt::format("-DSTRIDE={}", equations_.stride()));
   }
-  // The inverse of diagonal block k inside the buffer of all of them.
-  cl::Buffer at_block(cl::Buffer& buffer, int k) const {
-    const cl_buffer_region region{sizeof(float) * block * block * static_cast<std::size_t>(k),
-                                  sizeof(float) * block * block};
-    return buffer.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region);
-  }
 
-  void form(const cl::Buffer& status) {
+  void form(const Buffer& status) {
     auto clear = kernel("clear_matrix");
     auto scatter = kernel("scatter");
     auto negate = kernel("negate");
@@ -70,32 +64,31 @@ class DenseCholeskySteps : public StepSolver {
     device_.run("solver", negate, size(), 64, status, unknowns_, n_, equations_.gradient(), step_);
   }
 
-  void factor(const cl::Buffer& status) {
+  void factor(const Buffer& status) {
     auto diagonal = kernel("diagonal");
     auto panel = kernel("panel");
     auto update = kernel("update");
     for (int k = 0; k < blocks_; ++k) {
-      const auto inverse_transposed = at_block(inverses_transposed_, k);
-      device_.run("cholesky", diagonal, 1, 1, status, k, n_, matrix_, scratch_, at_block(inverses_, k),
-                  inverse_transposed);
+      device_.run("cholesky", diagonal, 1, 1, status, k, n_, matrix_, scratch_, inverses_,
+                  inverses_transposed_);
       const auto rest = static_cast<std::size_t>(n_ - (k + 1) * block);
-      device_.run("cholesky", panel, rest / 4, 1, status, k, n_, matrix_, inverse_transposed, tiles_);
+      device_.run("cholesky", panel, rest / 4, 1, status, k, n_, matrix_, inverses_transposed_, tiles_);
       device_.run("cholesky", update, rest / 8 * (rest / 32), 1, status, k, n_,
                   static_cast<cl_int>(rest / 32), matrix_, tiles_);
     }
   }
 
-  void substitute(const cl::Buffer& status) {
+  void substitute(const Buffer& status) {
     auto diagonal = kernel("solve_diagonal");
     auto below = kernel("eliminate_below");
     auto above = kernel("eliminate_above");
     for (int k = 0; k < blocks_; ++k) {
-      device_.run("solver", diagonal, 1, 1, status, k, at_block(inverses_, k), step_);
+      device_.run("solver", diagonal, 1, 1, status, k, inverses_, step_);
       device_.run("solver", below, static_cast<std::size_t>(n_ - (k + 1) * block), 64, status, k, n_, matrix_,
                   step_);
     }
     for (int k = blocks_ - 1; k >= 0; --k) {
-      device_.run("solver", diagonal, 1, 1, status, k, at_block(inverses_transposed_, k), step_);
+      device_.run("solver", diagonal, 1, 1, status, k, inverses_transposed_, step_);
       device_.run("solver", above, static_cast<std::size_t>(4 * k), 4, status, k, n_, matrix_, step_);
     }
   }
@@ -105,12 +98,12 @@ class DenseCholeskySteps : public StepSolver {
   cl_int unknowns_;
   cl_int n_;
   cl_int blocks_;
-  cl::Buffer matrix_;
-  cl::Buffer tiles_;
-  cl::Buffer scratch_;
-  cl::Buffer inverses_;
-  cl::Buffer inverses_transposed_;
-  cl::Buffer step_;
+  Buffer matrix_;
+  Buffer tiles_;
+  Buffer scratch_;
+  Buffer inverses_;
+  Buffer inverses_transposed_;
+  Buffer step_;
 };
 
 class DenseCholesky : public LinearSolver {

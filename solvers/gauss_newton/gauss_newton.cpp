@@ -9,8 +9,6 @@
 namespace pliant {
 namespace {
 
-using StatusRecord = std::array<cl_int, status_words>;
-
 class BoundGaussNewton : public BoundSolver {
  public:
   BoundGaussNewton(Problem& problem, Device& device, const LinearSolver& linear_solver,
@@ -18,21 +16,27 @@ class BoundGaussNewton : public BoundSolver {
       : device_(device), minimiser_(linear_solver.bind(problem, device, options)) {}
 
   void solve() override {
-    constexpr StatusRecord zeros{};
-    records_.push_back(device_.upload(zeros.data(), sizeof(zeros)));
-    minimiser_->enqueue(records_.back());
+    collect();
+    const Buffer& status = record_.write_device(device_);
+    device_.fill_zero(status, sizeof(cl_int) * record_.size());
+    minimiser_->enqueue(status);
+    record_.fetch();
+    is_pending_ = true;
   }
 
   std::vector<SolverSummary> summaries() override {
-    std::vector<SolverSummary> all;
-    for (const auto& record : records_) all.push_back(summary_of(record));
-    return all;
+    collect();
+    return summaries_;
   }
 
  private:
-  SolverSummary summary_of(const cl::Buffer& record) const {
-    StatusRecord words{};
-    device_.read(record, words.data(), sizeof(words));
+  /// Waits for the last solve, if nobody has yet.
+  void collect() {
+    if (is_pending_) summaries_.push_back(summary_of(record_.host()));
+    is_pending_ = false;
+  }
+
+  SolverSummary summary_of(const std::vector<cl_int>& words) const {
     const auto number = [&](std::size_t word) {
       return static_cast<double>(std::bit_cast<float>(words[word]));
     };
@@ -54,7 +58,9 @@ class BoundGaussNewton : public BoundSolver {
 
   Device& device_;
   std::unique_ptr<Minimiser> minimiser_;
-  std::vector<cl::Buffer> records_;
+  Array<cl_int> record_{status_words};
+  bool is_pending_ = false;
+  std::vector<SolverSummary> summaries_;
 };
 
 class GaussNewton : public Solver {

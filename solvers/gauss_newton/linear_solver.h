@@ -42,7 +42,7 @@ struct MinimiserOptions {
 
 /// Waits for what is enqueued, and tells whether the solve has ended. Asked after each iteration: the
 /// launches of one that finds the solve ended cost more than the wait.
-inline bool has_ended(const Device& device, const cl::Buffer& status) {
+inline bool has_ended(const Device& device, const Buffer& status) {
   cl_int skip = 0;
   device.read(status, &skip, sizeof(skip));
   return skip != 0;
@@ -54,7 +54,7 @@ class Minimiser {
   virtual ~Minimiser() = default;
   /// Enqueues a whole solve from problem.unknowns() to problem.unknowns(), and may wait between its
   /// iterations. `status`: status_words zeros, which the minimiser fills.
-  virtual void enqueue(const cl::Buffer& status) = 0;
+  virtual void enqueue(const Buffer& status) = 0;
   /// Name of the linear solver and, where it was chosen for the user, why.
   virtual std::string description() const = 0;
 };

@@ -19,7 +19,7 @@ class StepwiseMinimiser : public Minimiser {
         step_solver_(make(equations_)),
         trial_(device.allocate(sizeof(float) * problem.unknowns().size())) {}
 
-  void enqueue(const cl::Buffer& status) override {
+  void enqueue(const Buffer& status) override {
     auto begin = kernel("begin");
     if (!problem_.transform().is_free()) start_at_nearest(status);
     equations_.sum_energy(problem_.unknowns().device(device_), status);
@@ -41,14 +41,14 @@ class StepwiseMinimiser : public Minimiser {
     return device_.kernel(transform_source(problem_.transform(), equations_.stride()), name);
   }
 
-  void start_at_nearest(const cl::Buffer& status) {
+  void start_at_nearest(const Buffer& status) {
     auto take_nearest = transform_kernel("take_nearest");
     const auto nodes = problem_.node_count();
     device_.run("solver", take_nearest, static_cast<std::size_t>(nodes), 16, status, nodes,
                 problem_.unknowns().write_device(device_));
   }
 
-  void try_step(const cl::Buffer& status) {
+  void try_step(const Buffer& status) {
     const bool adds = problem_.transform().is_free();
     auto move = adds ? kernel("try_step") : transform_kernel("retract");
     const auto count = adds ? static_cast<cl_int>(problem_.unknowns().size()) : problem_.node_count();
@@ -56,7 +56,7 @@ class StepwiseMinimiser : public Minimiser {
                 problem_.unknowns().device(device_), step_solver_->step(), trial_);
   }
 
-  void iterate(const cl::Buffer& status) {
+  void iterate(const Buffer& status) {
     auto decide = kernel("decide");
     auto accept = kernel("accept");
     auto end_iteration = kernel("end_iteration");
@@ -79,7 +79,7 @@ class StepwiseMinimiser : public Minimiser {
   std::string linear_solver_;
   NormalEquations equations_;
   std::unique_ptr<StepSolver> step_solver_;
-  cl::Buffer trial_;
+  Buffer trial_;
 };
 
 }  // namespace

@@ -14,9 +14,9 @@ class StepSolver {
  public:
   virtual ~StepSolver() = default;
   /// Enqueues the solution of the damped system into step(); sets status_bad_pivot when there is none.
-  virtual void solve(const cl::Buffer& status) = 0;
+  virtual void solve(const Buffer& status) = 0;
   /// As many floats a node as the equations' stride.
-  virtual const cl::Buffer& step() const = 0;
+  virtual const Buffer& step() const = 0;
 };
 using MakeStepSolver = std::function<std::unique_ptr<StepSolver>(NormalEquations&)>;
 

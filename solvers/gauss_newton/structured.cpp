@@ -25,7 +25,7 @@ int rounded_up(int value, int multiple) { return (value + multiple - 1) / multip
 struct Instances {
   Incidences incidences;
   NodeLists lists;
-  cl::Buffer nodes, starts, entries, places, lever_arms, contributions;
+  Buffer nodes, starts, entries, places, lever_arms, contributions;
 
   void upload(Device& device, int padded, const std::vector<std::uint16_t>& block_places) {
     lists.starts.resize(static_cast<std::size_t>(padded) + 1, lists.starts.back());
@@ -68,7 +68,7 @@ class StructuredMinimiser : public Minimiser {
     make_lever_arms();
   }
 
-  void enqueue(const cl::Buffer& status) override {
+  void enqueue(const Buffer& status) override {
     upload_node_weights();
     for (auto& term : instance_terms_) evaluate("jacobian", term, status);
     device_.run("mm", assemble_, static_cast<std::size_t>(padded_), group, status, padded_, count_of(edges_),
@@ -245,7 +245,7 @@ class StructuredMinimiser : public Minimiser {
 
   /// A kernel over the system as a whole: one work-group.
   template <class... Arguments>
-  void run_minimiser(cl::Kernel& kernel, const cl::Buffer& status, const Arguments&... arguments) {
+  void run_minimiser(cl::Kernel& kernel, const Buffer& status, const Arguments&... arguments) {
     device_.run("solver", kernel, local_, local_, status, node_count_, padded_ / batch,
                 options_.max_iterations, options_.tolerance, options_.damping, node_weights_, row_starts_,
                 columns_, matrix_, diagonal_, factors_, vectors_, count_of(edges_), edges_.nodes,
@@ -255,7 +255,7 @@ class StructuredMinimiser : public Minimiser {
                 coupled_diagonal_, coupled_gradient_, arguments...);
   }
 
-  void minimise_step_by_step(const cl::Buffer& status) {
+  void minimise_step_by_step(const Buffer& status) {
     const auto& unknowns = problem_.unknowns().write_device(device_);
     run_minimiser(begin_, status, gradient_, partial_count_, partials_, unknowns, state_);
     for (int iteration = 0;
@@ -276,7 +276,7 @@ class StructuredMinimiser : public Minimiser {
     run_minimiser(end_, status, state_, partial_count_, partials_, unknowns);
   }
 
-  void evaluate(const std::string& stage, InstanceTerm& term, const cl::Buffer& status) {
+  void evaluate(const std::string& stage, InstanceTerm& term, const Buffer& status) {
     const auto& node_points = problem_.node_points().device(device_);
     const auto* constraints = term.term->constraints.get();
     const auto& data = constraints ? constraints->data.device(device_) : node_points;
@@ -288,7 +288,7 @@ class StructuredMinimiser : public Minimiser {
                 point_hessians_, term.first_partial, partials_);
   }
 
-  void measure_change(InstanceTerm& term, const cl::Buffer& status) {
+  void measure_change(InstanceTerm& term, const Buffer& status) {
     const auto& constraints = *term.term->constraints;
     device_.run("energy", term.change, static_cast<std::size_t>(term.partials()), 1, status, term.count,
                 weight_of(*term.term), loss_scale_of(term), problem_.unknowns().device(device_), trial_,
@@ -324,10 +324,10 @@ class StructuredMinimiser : public Minimiser {
   cl_int partial_count_ = 0;
   cl_int coupled_partial_count_ = 0;
   int constraint_count_ = 0;
-  cl::Buffer row_starts_, columns_, matrix_, diagonal_, factors_, gradient_, vectors_;
-  cl::Buffer node_weights_, partials_;
-  cl::Buffer point_hessians_, coupled_contributions_, hessian_products_, coupled_diagonal_, coupled_gradient_;
-  cl::Buffer trial_, changes_, state_;
+  Buffer row_starts_, columns_, matrix_, diagonal_, factors_, gradient_, vectors_;
+  Buffer node_weights_, partials_;
+  Buffer point_hessians_, coupled_contributions_, hessian_products_, coupled_diagonal_, coupled_gradient_;
+  Buffer trial_, changes_, state_;
   cl::Kernel assemble_, assemble_coupled_, solve_, begin_, step_, take_, end_, conclude_;
 };
 

@@ -1,6 +1,7 @@
-# Does what docs/adding-a-component.md tells its reader to do, to copies of the rooms `energies` and
-# `experiments/datasets`, and runs the tests there. Variables: SOURCE (the project), WORK (a folder to work in),
-# ROOMS (the exported libraries) and CONFIGURE (arguments for configuring, separated by |).
+# Does what docs/adding-a-component.md tells its reader to do, to copies of the rooms `energies`,
+# `framework/pose`, `experiments/datasets` and `experiments/report`, and runs the tests there. Variables: SOURCE
+# (the project), WORK (a folder to work in), ROOMS (the exported libraries) and CONFIGURE (arguments for
+# configuring, separated by |).
 cmake_minimum_required(VERSION 3.25)
 file(READ ${SOURCE}/docs/adding-a-component.md DOCUMENT)
 
@@ -48,7 +49,8 @@ endfunction()
 set(TREE ${WORK}/tree)
 file(REMOVE_RECURSE ${TREE})
 file(COPY ${SOURCE}/energies ${SOURCE}/cmake DESTINATION ${TREE})
-file(COPY ${SOURCE}/experiments/datasets DESTINATION ${TREE}/experiments)
+file(COPY ${SOURCE}/framework/pose DESTINATION ${TREE}/framework)
+file(COPY ${SOURCE}/experiments/datasets ${SOURCE}/experiments/report DESTINATION ${TREE}/experiments)
 file(COPY ${SOURCE}/tests/adding_a_component/project/CMakeLists.txt DESTINATION ${TREE})
 
 write_example(energies/stillness/equation.h stillness/equation.h)
@@ -71,8 +73,29 @@ add_to(${ROOM}/datasets.cpp "void register_datasets(Registry& registry) {"
 code_block("An experiment file names it" yaml EXPERIMENT)
 file(WRITE ${WORK}/frames.yaml "${EXPERIMENT}")
 
+write_example(experiments/report/csv.cpp csv/csv.cpp)
+set(SEPARATOR " ")
+add_to(experiments/report/reports.h "#define PLIANT_REPORTS(REPORT)"
+  "In `experiments/report/reports.h`, in the list `PLIANT_REPORTS`" cpp)
+code_block("Among the reports of an experiment" yaml EXPERIMENT)
+file(WRITE ${WORK}/reports.yaml "${EXPERIMENT}")
+
+set(ROOM framework/pose)
+write_example(${ROOM}/align_centroids.h align_centroids/align_centroids.h)
+write_example(${ROOM}/align_centroids.cpp align_centroids/align_centroids.cpp)
+add_to(${ROOM}/CMakeLists.txt "SOURCES" "In `${ROOM}/CMakeLists.txt`, behind `SOURCES`" cmake)
+set(SEPARATOR "\n")
+add_to(${ROOM}/alignments.cpp "#include \"framework/pose/alignments.h\""
+  "In `${ROOM}/alignments.cpp`, with the other includes" cpp)
+add_to(${ROOM}/alignments.cpp "void register_alignments(Registry& registry) {"
+  "In `${ROOM}/alignments.cpp`, in `register_alignments`" cpp)
+code_block("As the alignment of an experiment" yaml EXPERIMENT)
+file(WRITE ${WORK}/pose.yaml "${EXPERIMENT}")
+
 string(REPLACE "|" ";" CONFIGURE "${CONFIGURE}")
 run(${CMAKE_COMMAND} -S ${TREE} -B ${WORK}/build ${CONFIGURE} -DPLIANT_ROOMS=${ROOMS} -DPLIANT_SOURCE=${SOURCE})
 run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 run(${CMAKE_COMMAND} -E env PLIANT_EXAMPLE=${WORK}/experiment.yaml ${WORK}/build/follow)
 run(${CMAKE_COMMAND} -E env PLIANT_FRAMES_EXAMPLE=${WORK}/frames.yaml ${WORK}/build/follow_frames)
+run(${CMAKE_COMMAND} -E env PLIANT_REPORT_EXAMPLE=${WORK}/reports.yaml ${WORK}/build/follow_report)
+run(${CMAKE_COMMAND} -E env PLIANT_POSE_EXAMPLE=${WORK}/pose.yaml ${WORK}/build/follow_pose)

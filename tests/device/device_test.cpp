@@ -213,7 +213,7 @@ TEST(Device, ClearsBuffers) {
 TEST(Device, UploadsCopiesThatMayChangeOnTheHostAtOnce) {
   Device device;
   auto kernel = device.kernel(kScale, "scale");
-  std::vector<cl::Buffer> buffers;
+  std::vector<Buffer> buffers;
   for (int round = 0; round < 50; ++round) {
     std::vector<float> values(1000, static_cast<float>(round));
     buffers.push_back(device.upload(values));

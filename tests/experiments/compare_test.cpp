@@ -1,7 +1,6 @@
-#include "experiments/runner/compare.h"
-
 #include <gmock/gmock.h>
 
+#include "experiments/runner/runner.h"
 #include "tests/experiments/experiment_files.h"
 
 namespace pliant::testing {
@@ -15,35 +14,34 @@ class CompareTest : public ExperimentFiles {
   static constexpr const char* solvers =
       "solvers: {device: gauss_newton, sparse: {type: ceres_lm}, weak: {type: ceres_lm, max_iterations: 1}}\n"
       "compare: {repetitions: 2}\n";
+
+  ExperimentResult compare(const ExperimentPlan& plan) {
+    return run_experiment(*make_compare_task(), plan, file("out"), workbench_);
+  }
+
+  /// What the solvers made of the first run.
+  ordered_json trials(const ExperimentPlan& plan) { return compare(plan).runs.at(0).json["solvers"]; }
 };
 
 TEST_F(CompareTest, SolversStartAlikeAndEndAtTheSameEnergy) {
-  const auto comparisons = compare_solvers(plan(solvers), file("out"), workbench_);
-  ASSERT_EQ(comparisons.size(), 1U);
-  const auto& trials = comparisons[0].trials;
+  const ordered_json run = compare(plan(solvers)).runs.at(0).json;
+  EXPECT_EQ(run["counts"]["unknowns"], 12 * run["counts"]["nodes"].get<int>());
+  EXPECT_GT(run["counts"]["constraints"], 0);
+  const ordered_json& trials = run["solvers"];
   ASSERT_EQ(trials.size(), 3U);
-  EXPECT_EQ(comparisons[0].unknowns, 12 * comparisons[0].nodes);
-  EXPECT_GT(comparisons[0].constraints, 0);
-  for (const auto& trial : trials) {
-    EXPECT_EQ(trial.initial_energy, trials[0].initial_energy);
-    EXPECT_LT(trial.final_energy, trial.initial_energy);
-    EXPECT_GT(trial.solve_ms, 0);
-    EXPECT_EQ(trial.repetitions, 2);
+  for (const ordered_json& trial : trials) {
+    EXPECT_EQ(trial["energy"]["initial"], trials[0]["energy"]["initial"]);
+    EXPECT_LT(trial["energy"]["final"], trial["energy"]["initial"]);
+    EXPECT_GT(trial["time_ms"]["solve"], 0);
+    EXPECT_EQ(trial["time_ms"]["repetitions"], 2);
   }
-  EXPECT_LT(trials[0].relative_difference, 1e-4);
-  EXPECT_LT(trials[1].relative_difference, 1e-4);
-  EXPECT_EQ(trials[2].summary.iterations, 1);
-}
-
-TEST_F(CompareTest, SummaryAgreesWithTheEnergyMeasuredFromOutside) {
-  const auto trials = compare_solvers(plan(solvers), file("out"), workbench_)[0].trials;
-  for (const auto& trial : trials)
-    EXPECT_NEAR(trial.summary.final_energy, trial.final_energy, 1e-4 * trial.final_energy) << trial.name;
+  EXPECT_LT(trials[0]["energy"]["relative_difference"], 1e-4);
+  EXPECT_LT(trials[1]["energy"]["relative_difference"], 1e-4);
+  EXPECT_EQ(trials[2]["iterations"], 1);
 }
 
 TEST_F(CompareTest, FileHasARowPerRunAndSolver) {
-  compare_solvers(plan(std::string(solvers) + "runs: {a: , b: {sampler: {step: 3}}}"), file("out"),
-                  workbench_);
+  compare(plan(std::string(solvers) + "runs: {a: , b: {sampler: {step: 3}}}"));
   const auto json = ordered_json::parse(text_of("out/compare.json"));
   EXPECT_EQ(json["schema"], 1);
   ASSERT_EQ(json["runs"].size(), 2U);
@@ -58,24 +56,26 @@ TEST_F(CompareTest, FileHasARowPerRunAndSolver) {
 }
 
 TEST_F(CompareTest, NoFurtherSolveIsBegunAfterTheTime) {
-  const auto made = plan(solvers, {"compare.repetitions=1000", "compare.max_seconds=1.0e-9"});
-  const auto trials = compare_solvers(made, file("out"), workbench_)[0].trials;
-  for (const auto& trial : trials) {
-    EXPECT_EQ(trial.repetitions, 1);
-    EXPECT_GT(trial.solve_ms, 0);
+  for (const ordered_json& trial :
+       trials(plan(solvers, {"compare.repetitions=1000", "compare.max_seconds=1.0e-9"}))) {
+    EXPECT_EQ(trial["time_ms"]["repetitions"], 1);
+    EXPECT_GT(trial["time_ms"]["solve"], 0);
   }
 }
 
 TEST_F(CompareTest, NothingToCompareIsAConfigError) {
-  EXPECT_THROW(compare_solvers(plan(""), file("out"), workbench_), ConfigError);
+  EXPECT_THROW(compare(plan("")), ConfigError);
+  EXPECT_FALSE(std::filesystem::exists(file("out")));
 }
 
 TEST_F(CompareTest, TablesListTheSolversOfEachRun) {
-  const auto tables = compare_tables(compare_solvers(plan(solvers), file("out"), workbench_));
-  ASSERT_EQ(tables.size(), 1U);
+  const ExperimentPlan made = plan(std::string(solvers) + "runs: {a: , b: }");
+  const auto tables = run_tables(*make_compare_task(), made, compare(made), "sub");
+  ASSERT_EQ(tables.size(), 2U);
   std::vector<std::string> names;
-  for (const auto& row : tables[0].rows) names.push_back(row.cells[0]);
+  for (const auto& row : tables[1].rows) names.push_back(row.cells[0]);
   EXPECT_THAT(names, ElementsAre("device", "sparse", "weak"));
+  EXPECT_EQ(tables[1].rows[0].link, "sub/index.html");
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <set>
 
-#include "experiments/runner/compare.h"
 #include "experiments/runner/runner.h"
 #include "framework/config/schema.h"
 #include "framework/core/error.h"
@@ -31,8 +30,15 @@ const std::string two_handles =
 class EditTest : public ExperimentFiles {
  protected:
   ordered_json edit(const ExperimentPlan& plan, const std::string& folder = "out") {
-    records_ = edit_experiment(plan, file(folder), workbench_);
+    result_ = run_experiment(*make_edit_task(), plan, file(folder), workbench_);
     return ordered_json::parse(text_of(folder + "/result.json"));
+  }
+
+  /// What the first run of an experiment comes to, without a file.
+  EditResult bend(const ExperimentPlan& plan) {
+    const ExperimentRun& run = plan.runs.at(0);
+    return edit_surface(workbench_.pair(run.values), make_handles(run, registry_),
+                        make_method(run, registry_), workbench_.device(run.values));
   }
 
   /// The error that checking ends in; the folder of the test left out.
@@ -49,7 +55,7 @@ class EditTest : public ExperimentFiles {
     return "";
   }
 
-  std::vector<EditRecord> records_;
+  ExperimentResult result_;
 };
 
 std::vector<std::string> keys(const ordered_json& json) {
@@ -78,12 +84,11 @@ TEST_F(EditTest, ResultTellsOfHandlesAndOfNothingThatNeedsATarget) {
   EXPECT_EQ(files, (std::set<std::string>{".pliant", "result.json", "experiment.yaml", "index.html",
                                           "source.ply", "registered.ply", "depth_source.png",
                                           "depth_registered.png", "motion.png", "graph.png"}));
-  EXPECT_EQ(run_table(plan(two_handles), records_).rows.at(0).link, "index.html");
+  EXPECT_EQ(run_tables(*make_edit_task(), plan(two_handles), result_).at(0).rows.at(0).link, "index.html");
 }
 
 TEST_F(EditTest, TheSurfaceGoesWithTheHandlesAndStaysWhole) {
-  edit(plan(two_handles));
-  const EditResult& result = records_.at(0).result;
+  const EditResult result = bend(plan(two_handles));
   const auto all = result.all_handles();
   EXPECT_GT(all.initial_mean, 50);
   EXPECT_LT(all.mean, 2);
@@ -99,10 +104,9 @@ TEST_F(EditTest, TheSurfaceGoesWithTheHandlesAndStaysWhole) {
 }
 
 TEST_F(EditTest, OneHandleTurnsTheWholeSurfaceRigidly) {
-  edit(plan(
+  const EditResult result = bend(plan(
       "length_unit: 1000\nsolver: {max_iterations: 200}\n"
       "handles: {middle: {type: pixel, at: [80, 60], radius: 60, move: [10, 0, 50], rotate: [0, 0, 70]}}\n"));
-  const EditResult& result = records_.at(0).result;
   const Handle handle{.pixel = Eigen::Vector2i(80, 60),
                       .radius = 60,
                       .move = {10, 0, 50},
@@ -118,8 +122,7 @@ TEST_F(EditTest, OneHandleTurnsTheWholeSurfaceRigidly) {
 }
 
 TEST_F(EditTest, HandlesThatStayLeaveTheSurfaceAsItIs) {
-  edit(plan("handles: {a: {type: pixel, at: [60, 60], radius: 30}}"));
-  const EditResult& result = records_.at(0).result;
+  const EditResult result = bend(plan("handles: {a: {type: pixel, at: [60, 60], radius: 30}}"));
   EXPECT_EQ(result.energy.initial, 0);
   for (std::size_t i = 0; i < result.points.size(); ++i)
     ASSERT_LT((result.points[i] - result.source.points[i]).norm(), 1e-3) << "point " << i;
@@ -129,25 +132,24 @@ TEST_F(EditTest, DeviceAndCeresFindTheSameMinimum) {
   for (const std::string more : {"", "graph: {type: quadtree}\n", "transform: quaternion\n",
                                  "energies: {point_to_plane: {weight: 10}}\n"}) {
     SCOPED_TRACE(more);
-    edit(plan(two_handles + more, {"solver.tolerance=1.0e-7"}));
-    const double device = records_.at(0).result.energy.final;
-    edit(plan(two_handles + more, {"solver={type: ceres_lm, max_iterations: 500, tolerance: 1.0e-9}"}));
-    const double ceres = records_.at(0).result.energy.final;
-    EXPECT_EQ(records_.at(0).result.solver.name, "ceres_lm");
-    EXPECT_GT(ceres, 0);
-    EXPECT_NEAR(device, ceres, 1e-4 * ceres);
+    const EditResult device = bend(plan(two_handles + more, {"solver.tolerance=1.0e-7"}));
+    const EditResult ceres =
+        bend(plan(two_handles + more, {"solver={type: ceres_lm, max_iterations: 500, tolerance: 1.0e-9}"}));
+    EXPECT_EQ(ceres.solver.name, "ceres_lm");
+    EXPECT_GT(ceres.energy.final, 0);
+    EXPECT_NEAR(device.energy.final, ceres.energy.final, 1e-4 * ceres.energy.final);
   }
 }
 
 TEST_F(EditTest, SolversCanBeComparedOnIt) {
-  const auto trials = compare_solvers(
+  const ExperimentPlan made =
       plan(two_handles +
-           "solvers: {device: {type: gauss_newton, max_iterations: 200}}\ncompare: {repetitions: 1}\n"),
-      file("out"), workbench_)[0];
-  edit(plan(two_handles), "edit");
-  EXPECT_EQ(trials.nodes, records_.at(0).result.counts.nodes);
-  EXPECT_NEAR(trials.trials.at(0).final_energy, records_.at(0).result.energy.final,
-              1e-4 * records_.at(0).result.energy.final);
+           "solvers: {device: {type: gauss_newton, max_iterations: 200}}\ncompare: {repetitions: 1}\n");
+  const ordered_json run =
+      run_experiment(*make_compare_task(), made, file("out"), workbench_).runs.at(0).json;
+  const EditResult bent = bend(made);
+  EXPECT_EQ(run["counts"]["nodes"], bent.counts.nodes);
+  EXPECT_NEAR(run["solvers"][0]["energy"]["final"], bent.energy.final, 1e-4 * bent.energy.final);
 }
 
 TEST_F(EditTest, WhatIsWrongIsToldWithItsPlace) {
@@ -180,8 +182,9 @@ TEST_F(EditTest, EnergiesThatHandlesCannotServeAreErrors) {
   const std::string one = "handles: {a: {type: pixel, at: [80, 60], radius: 10}}\n";
   EXPECT_THAT(error(one + "energies: {feature: {weight: 1}}\n"),
               HasSubstr("small.yaml: the energy 'feature' needs a target"));
-  EXPECT_THROW(compare_solvers(plan(one + "energies: {feature: {weight: 1}}\nsolvers: {a: gauss_newton}\n"),
-                               file("out"), workbench_),
+  EXPECT_THROW(run_experiment(*make_compare_task(),
+                              plan(one + "energies: {feature: {weight: 1}}\nsolvers: {a: gauss_newton}\n"),
+                              file("out"), workbench_),
                ConfigError);
   write("bare.yaml",
         "data: {type: synthetic_sheet, image_width: 80, image_height: 60, focal_length: 65.6}\n"
@@ -220,7 +223,6 @@ TEST_F(EditTest, EditorsKnowTheKeys) {
 TEST_F(EditTest, TheOneThatComesWithTheProjectBendsDeeply) {
   const ConfigSource source{std::string(PLIANT_EXPERIMENTS) + "/edit_handles.yaml", {"reports={}"}, {}, {}};
   const ExperimentPlan made = plan_experiment(source, registry_);
-  ASSERT_TRUE(made.has_handles());
   const ordered_json result = edit(made);
   for (const ordered_json& run : result["runs"]) {
     SCOPED_TRACE(run["name"]);

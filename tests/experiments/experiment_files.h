@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "experiments/runner/experiment.h"
-#include "experiments/runner/workbench.h"
+#include "experiments/tasks/workbench.h"
 #include "tests/io/test_files.h"
 
 namespace pliant::testing {

@@ -69,11 +69,39 @@ TEST_F(ResultFolderTest, LeavesNothingWhenItFails) {
 
 TEST_F(ResultFolderTest, KeepsWhatWasFinishedWhereAskedTo) {
   begin({"result.json"}, "old")->commit();
-  auto failing = begin({"result.json", "done"}, "new");
-  const fs::path kept = failing->keep();
+  auto failing = begin({"result.json", "done", "half"}, "new");
+  failing->keep();
+  const fs::path kept = failing->unfinished();
   failing.reset();
   EXPECT_TRUE(fs::exists(kept / "done"));
   EXPECT_EQ(text_of("result.json"), "old");
+  {
+    ResultFolder next(out_, {"result.json", "done"}, {}, ResultFolder::Leftovers::stay);
+    EXPECT_EQ(next.unfinished(), kept);
+    next.keep_only({"done"});
+    EXPECT_FALSE(fs::exists(kept / "half"));
+  }
+  EXPECT_TRUE(fs::exists(kept / "done")) << "it is kept until there is a result";
+  begin({"result.json"}, "newest")->commit();
+  EXPECT_EQ(names(), (Names{".pliant", "result.json"}));
+}
+
+TEST_F(ResultFolderTest, OneAtATimeIsWritten) {
+  const auto first = begin({"result.json"}, "first");
+  EXPECT_THAT(data_error_of([&] { begin({"result.json"}, "second"); }),
+              HasSubstr("another process is writing a result here"));
+  first->commit();
+  EXPECT_EQ(text_of("result.json"), "first");
+  begin({"result.json"}, "second")->commit();
+  EXPECT_EQ(text_of("result.json"), "second");
+}
+
+TEST_F(ResultFolderTest, AFolderOfOthersWithTheNameOfTheUnfinishedOneStays) {
+  fs::create_directories(out_ / "unfinished");
+  write("above/out/unfinished/thesis.tex", "mine");
+  EXPECT_THAT(data_error_of([&] { begin({"result.json"}, "new"); }),
+              HasSubstr("unfinished is not of an earlier result"));
+  EXPECT_EQ(names(), (Names{"unfinished/thesis.tex"}));
 }
 
 TEST_F(ResultFolderTest, FilesOfOthersStay) {
@@ -123,7 +151,7 @@ TEST_F(ResultFolderTest, AFileThatCameInTheMeantimeIsNotReplacedAndTheNewResultI
   write("above/out/result.json", "mine");
   EXPECT_THAT(data_error_of([&] { fresh->commit(); }), HasSubstr("the new result is kept in "));
   EXPECT_EQ(text_of("result.json"), "mine");
-  EXPECT_EQ(names().size(), 2U) << "the new one is there, too";
+  EXPECT_EQ(names(), (Names{"result.json", "unfinished/.pliant", "unfinished/result.json"}));
 }
 
 TEST_F(ResultFolderTest, ResultsInsideAResultAreReplacedWithIt) {

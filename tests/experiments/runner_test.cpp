@@ -2,12 +2,10 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
-#include <limits>
 #include <set>
 
-#include "experiments/runner/result_json.h"
 #include "framework/imaging/depth_filter.h"
+#include "framework/tracking/register_pair.h"
 #include "tests/experiments/experiment_files.h"
 
 namespace pliant::testing {
@@ -21,8 +19,16 @@ using ::testing::IsSupersetOf;
 class RunnerTest : public ExperimentFiles {
  protected:
   ordered_json run(const ExperimentPlan& plan, const std::string& folder) {
-    records_ = run_experiment(plan, file(folder), workbench_);
+    result_ = run_experiment(*task_, plan, file(folder), workbench_);
     return ordered_json::parse(text_of(folder + "/result.json"));
+  }
+
+  /// What the first run of an experiment comes to, without a file.
+  RegistrationResult register_first(const ExperimentPlan& plan) {
+    const ExperimentRun& run = plan.runs.at(0);
+    return register_pair(workbench_.pair(run.values), make_method(run, registry_),
+                         workbench_.device(run.values),
+                         static_cast<std::uint64_t>(run.values.integer("seed")));
   }
 
   std::set<std::string> files_of(const std::string& folder) const {
@@ -31,7 +37,8 @@ class RunnerTest : public ExperimentFiles {
     return names;
   }
 
-  std::vector<RunRecord> records_;
+  ExperimentResult result_;
+  std::unique_ptr<Task> task_ = make_register_task();
 };
 
 std::vector<std::string> keys(const ordered_json& json) {
@@ -78,8 +85,7 @@ TEST_F(RunnerTest, ResultHasTheKeysThatOthersRead) {
 
 TEST_F(RunnerTest, ResultSaysWhatTheRegistrationCameTo) {
   const ordered_json entry = run(plan(""), "out")["runs"][0];
-  const RegistrationResult& made = records_.at(0).result;
-  EXPECT_EQ(entry["counts"]["source_points"], made.source.size());
+  EXPECT_EQ(entry["counts"]["source_points"], register_first(plan("")).source.size());
   EXPECT_EQ(entry["counts"]["unknowns"], 12 * entry["counts"]["nodes"].get<int>());
   EXPECT_EQ(entry["energy"]["per_iteration"].size(), entry["counts"]["outer_iterations"]);
   EXPECT_LT(entry["metrics"]["epe_mean"], 0.5 * entry["initial"]["epe_mean"].get<double>());
@@ -101,9 +107,9 @@ TEST_F(RunnerTest, AFilterServesTheRegistrationAndLeavesThePointsAsGiven) {
   registry_.add<DepthFilter>("shifted", "3 mm further away", {},
                              [](const Parameters&, const Registry&) { return std::make_unique<Shifted>(); });
   const ordered_json raw = run(plan(""), "raw")["runs"][0];
-  const Surface source = records_.at(0).result.source;
+  const Surface source = register_first(plan("")).source;
   const ordered_json filtered = run(plan("filter: shifted"), "filtered")["runs"][0];
-  const RegistrationResult& result = records_.at(0).result;
+  const RegistrationResult result = register_first(plan("filter: shifted"));
   ASSERT_EQ(result.source.size(), source.size());
   for (std::size_t i = 0; i < source.size(); ++i)
     ASSERT_LT((result.source.points[i] - source.points[i]).norm(), 1e-3) << "point " << i;
@@ -116,7 +122,7 @@ TEST_F(RunnerTest, AFilterServesTheRegistrationAndLeavesThePointsAsGiven) {
 TEST_F(RunnerTest, TwoRunsGiveTheSameBits) {
   ordered_json first = run(plan("data: {noise: 1}"), "first");
   Workbench fresh(registry_);
-  run_experiment(plan("data: {noise: 1}"), file("second"), fresh);
+  run_experiment(*task_, plan("data: {noise: 1}"), file("second"), fresh);
   ordered_json second = ordered_json::parse(text_of("second/result.json"));
   drop_times(first);
   drop_times(second);
@@ -126,8 +132,8 @@ TEST_F(RunnerTest, TwoRunsGiveTheSameBits) {
 
 TEST_F(RunnerTest, AdaptiveConstraintsThatSwingEndTheLoop) {
   // A threshold below the noise: masks gain and lose constraints in every iteration.
-  run(plan("data: {noise: 1}\ngraph: {type: quadtree}\nsampler: {type: adaptive, threshold: 1}"), "out");
-  const RegistrationResult& result = records_.at(0).result;
+  const RegistrationResult result = register_first(
+      plan("data: {noise: 1}\ngraph: {type: quadtree}\nsampler: {type: adaptive, threshold: 1}"));
   EXPECT_EQ(result.termination, "no_progress");
   EXPECT_LT(result.counts.outer_iterations, 30);
 }
@@ -176,10 +182,10 @@ TEST_F(RunnerTest, ReportsAreThoseOfTheExperiment) {
   const ExperimentPlan bare = plan_experiment({file("bare.yaml"), {}, {}, {}}, registry_);
   run(bare, "bare");
   EXPECT_EQ(files_of("bare"), (std::set<std::string>{".pliant", "result.json", "experiment.yaml"}));
-  EXPECT_EQ(run_table(bare, records_).rows.at(0).link, "");  // there is no page to lead to
+  EXPECT_EQ(run_tables(*task_, bare, result_).at(0).rows.at(0).link, "");  // there is no page to lead to
   const ExperimentPlan whole = plan("");
   run(whole, "whole");
-  EXPECT_EQ(run_table(whole, records_, "sub").rows.at(0).link, "sub/index.html");
+  EXPECT_EQ(run_tables(*task_, whole, result_, "sub").at(0).rows.at(0).link, "sub/index.html");
 }
 
 TEST_F(RunnerTest, TheExperimentBesideTheResultsGivesTheSameResults) {
@@ -202,7 +208,7 @@ TEST_F(RunnerTest, DataIsLoadedOnceForRunsThatShareIt) {
 TEST_F(RunnerTest, ProgressIsToldUnderTheNameOfTheRun) {
   std::set<std::string> names;
   double last = 0;
-  run_experiment(plan("name: mine"), file("out"), workbench_, [&](const Progress& step) {
+  run_experiment(*task_, plan("name: mine"), file("out"), workbench_, [&](const Progress& step) {
     names.insert(step.what);
     last = step.done;
   });
@@ -223,7 +229,7 @@ TEST_F(RunnerTest, RepeatsTellTheMedianAndTheSpreadOfRunsAfterTheFirst) {
   const auto count = [&](const Progress& step) {
     warm_ups += step.message.find("warm-up, iteration 1:") == 0;
   };
-  const auto records = run_experiment(plan(""), file("out"), workbench_, count, 3);
+  const auto result = run_experiment(*task_, plan(""), file("out"), workbench_, count, 3);
   const ordered_json entry = ordered_json::parse(text_of("out/result.json"))["runs"][0];
   const ordered_json& timing = entry["timing"];
   EXPECT_EQ(warm_ups, 1);
@@ -232,29 +238,13 @@ TEST_F(RunnerTest, RepeatsTellTheMedianAndTheSpreadOfRunsAfterTheFirst) {
   EXPECT_LE(timing["min_ms"], timing["median_ms"]);
   EXPECT_LE(timing["median_ms"], timing["max_ms"]);
   EXPECT_EQ(timing["median_ms"], entry["time_ms"]["total"]);
-  EXPECT_THAT(run_table(plan(""), records).rows.at(0).cells.back(),
+  EXPECT_THAT(run_tables(*task_, plan(""), result).at(0).rows.at(0).cells.back(),
               ::testing::MatchesRegex("[0-9]+ .[0-9]+ to [0-9]+."));
-}
-
-TEST_F(RunnerTest, AnErrorAfterAFinishedRunTellsWhereItIsKept) {
-  const ExperimentPlan made = plan("runs: {good: , bad: {graph: {spacing: 1000}}}");
-  std::string message;
-  try {
-    run_experiment(made, file("out"), workbench_);
-  } catch (const Error& error) {
-    message = error.what();
-    EXPECT_EQ(error.exit_code(), 3);
-  }
-  const std::string place = file("out/unfinished-");
-  ASSERT_NE(message.find("; what was finished before is kept in " + place), std::string::npos) << message;
-  const fs::path kept = message.substr(message.find(place));
-  EXPECT_TRUE(fs::exists(kept / "good/registered.ply"));
-  EXPECT_FALSE(fs::exists(file("out/result.json")));
 }
 
 TEST_F(RunnerTest, ARunMayWriteNoFileThatItDidNotAnnounce) {
   const ExperimentPlan registration = plan("");
-  const auto announced = result_files(registration, registry_);
+  const auto announced = result_files(*task_, registration, registry_);
   run(registration, "out");
   for (const auto& name : files_of("out"))
     EXPECT_TRUE(name == ".pliant" || std::count(announced.begin(), announced.end(), name) == 1) << name;
@@ -278,26 +268,14 @@ TEST_F(RunnerTest, CheckingMakesNoFile) {
 
 TEST_F(RunnerTest, AFolderThatCannotBeMadeIsADataError) {
   write("taken", "a file");
-  EXPECT_THROW(run_experiment(plan(""), file("taken"), workbench_), DataError);
-  EXPECT_THROW(run_experiment(plan(""), file("taken") + "/below", workbench_), DataError);
+  EXPECT_THROW(run_experiment(*task_, plan(""), file("taken"), workbench_), DataError);
+  EXPECT_THROW(run_experiment(*task_, plan(""), file("taken") + "/below", workbench_), DataError);
 }
 
 TEST_F(RunnerTest, AComponentCombinationWithoutSenseIsAConfigError) {
   EXPECT_THROW(check_experiment(plan("graph: {type: quadtree, refine_threshold: 1, collapse_threshold: 2}"),
                                 workbench_),
                ConfigError);
-}
-
-TEST_F(RunnerTest, JsonWithoutFiniteNumbersIsNotWritten) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const ordered_json bad = {{"runs", {{{"metrics", {{"epe_mean", nan}}}}}}};
-  try {
-    write_json(file("bad.json"), bad);
-    FAIL() << "NaN was written";
-  } catch (const NumericalError& error) {
-    EXPECT_STREQ(error.what(), "runs[0].metrics.epe_mean is nan; there is no finite answer");
-  }
-  EXPECT_FALSE(fs::exists(file("bad.json")));
 }
 
 }  // namespace

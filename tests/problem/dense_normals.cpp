@@ -73,7 +73,7 @@ Eigen::MatrixXd tangents(const Problem& problem, const double* forms) {
   return T;
 }
 
-std::vector<float> read(Device& device, const cl::Buffer& buffer, std::size_t count) {
+std::vector<float> read(Device& device, const Buffer& buffer, std::size_t count) {
   std::vector<float> values(count);
   device.read(buffer, values.data(), sizeof(float) * count);
   return values;
@@ -124,7 +124,7 @@ double device_energy(NormalEquations& equations, const Problem& problem) {
   return std::accumulate(partials.begin(), partials.end(), 0.0);
 }
 
-cl::Buffer make_status(Device& device) {
+Buffer make_status(Device& device) {
   constexpr std::size_t bytes = 4096;  // more words than any solver keeps
   auto status = device.allocate(bytes);
   device.fill_zero(status, bytes);

@@ -25,6 +25,6 @@ DenseNormals device_normals(NormalEquations& equations);
 double device_energy(NormalEquations& equations, const Problem& problem);
 
 /// A status record of zeros: nothing is skipped.
-cl::Buffer make_status(Device& device);
+Buffer make_status(Device& device);
 
 }  // namespace pliant::test

@@ -93,11 +93,13 @@ TEST_F(OwnNamesTest, TheExperimentBesideAResultIsNotReplacedByItsOwnRun) {
 
 TEST_F(KeepingTest, RunsMayNotBeCalledAsFilesOfAResultAre) {
   write("names.yaml",
-        "extends: methods/ed.yaml\ndata: {type: synthetic_sheet}\nruns: {result.json: , index.html: }\n");
+        "extends: methods/ed.yaml\ndata: {type: synthetic_sheet}\nruns: {result.json: , index.html: , "
+        "unfinished: }\n");
   const ProgramRun run = call("check names.yaml");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.errors(), ElementsAre(MatchesRegex("names.yaml:3:8: .*'result.json'.*"),
-                                        MatchesRegex("names.yaml:3:23: .*'index.html'.*")));
+                                        MatchesRegex("names.yaml:3:23: .*'index.html'.*"),
+                                        MatchesRegex("names.yaml:3:37: .*'unfinished'.*")));
 }
 
 TEST_F(KeepingTest, AReproductionThatFailsLeavesTheOldOne) {
@@ -116,9 +118,8 @@ TEST_F(KeepingTest, AFullDiskIsToldWithTheFileAndLosesNothing) {
   ASSERT_EQ(call("run large.yaml --out out").exit_code, 0);
   const auto before = all_of("out");
   EXPECT_EQ(shell("ulimit -f 4000; $PLIANT run large.yaml --out out"), 3);
-  EXPECT_THAT(text_of("script.err"),
-              MatchesRegex(".*error: out/unfinished-....../source.ply: cannot be written: "
-                           "File too large\n"));
+  EXPECT_THAT(text_of("script.err"), MatchesRegex(".*error: out/unfinished/source.ply: cannot be written: "
+                                                  "File too large\n"));
   EXPECT_EQ(all_of("out"), before);
   EXPECT_EQ(shell("ulimit -f 4000; $PLIANT run large.yaml --out new"), 3);
   EXPECT_FALSE(fs::exists(file("new")));
@@ -169,7 +170,7 @@ TEST_F(KeepingTest, AnInterruptionLeavesTheOldResultAndNothingElse) {
                                  " & pid=$!\n"
                                  "until [ -d " +
                                  folder +
-                                 "/unfinished-* ]; do sleep 0.01; done\n"
+                                 "/unfinished ]; do sleep 0.01; done\n"
                                  "kill -" +
                                  signal + " $pid; wait $pid";
       EXPECT_EQ(shell(script), exit_code) << signal;
@@ -177,6 +178,54 @@ TEST_F(KeepingTest, AnInterruptionLeavesTheOldResultAndNothingElse) {
       EXPECT_EQ(all_of("out"), before) << signal;
       EXPECT_FALSE(fs::exists(file("new"))) << signal;
     }
+}
+
+TEST_F(KeepingTest, AnInterruptedSweepGoesOnWhereItWasInterrupted) {
+  write("sweep.yaml",
+        "extends: small.yaml\n"
+        "runs: {first: , second: {data: {image_width: 640, image_height: 480, focal_length: 525}}}\n");
+  for (const char* signal : {"INT", "KILL"}) {
+    fs::remove_all(file("out"));
+    const std::string script = std::string("$PLIANT run sweep.yaml --out out & pid=$!\n") +
+                               "until [ -f out/unfinished/first/run.json ]; do sleep 0.01; done\n" +
+                               "kill -" + signal + " $pid; wait $pid";
+    EXPECT_EQ(shell(script), signal == std::string("INT") ? 130 : 137);
+    if (signal == std::string("INT")) {
+      EXPECT_THAT(
+          text_of("script.err"),
+          HasSubstr("interrupted\nout/unfinished: the finished runs; the same command goes on from there"));
+    }
+    EXPECT_FALSE(fs::exists(file("out/result.json")));
+    const auto first = nlohmann::ordered_json::parse(text_of("out/unfinished/first/run.json"))["run"];
+    const ProgramRun run = call("run sweep.yaml --out out");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("Taken from the earlier result, which was not finished: first\n"));
+    EXPECT_FALSE(fs::exists(file("out/unfinished")));
+    const auto result = nlohmann::ordered_json::parse(text_of("out/result.json"));
+    EXPECT_EQ(result["runs"][0].dump(), first.dump());
+    EXPECT_EQ(result["runs"].size(), 2U);
+  }
+}
+
+TEST_F(KeepingTest, ARunThatFailsIsToldAndTheOthersAreKept) {
+  write("sweep.yaml", "extends: small.yaml\nruns: {bad: {graph: {spacing: 1000}}, good: }\n");
+  const ProgramRun run = call("run sweep.yaml --out out");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("bad: failed: sweep.yaml, run bad: "), HasSubstr("Results are in out")));
+  EXPECT_THAT(run.err, HasSubstr("error: sweep.yaml, run bad: "));
+  EXPECT_EQ(nlohmann::json::parse(text_of("out/result.json"))["runs"][0]["name"], "good");
+  EXPECT_TRUE(fs::exists(file("out/good/registered.ply")));
+}
+
+TEST_F(KeepingTest, TwoCallsDoNotWriteIntoOneFolder) {
+  const std::string script =
+      "$PLIANT run small.yaml --repeat 1000 --out out & pid=$!\n"
+      "until [ -d out/unfinished ]; do sleep 0.01; done\n"
+      "$PLIANT run small.yaml --out out; code=$?\n"
+      "kill -INT $pid; wait $pid; exit $code";
+  EXPECT_EQ(shell(script), 3);
+  EXPECT_THAT(text_of("script.err"), HasSubstr("error: out: another process is writing a result here"));
 }
 
 TEST_F(KeepingTest, RepeatsTellMedianAndSpread) {

@@ -88,16 +88,11 @@ TEST_F(RegistrationTest, EndsWithoutProgress) {
 }
 
 TEST_F(RegistrationTest, TellsOfEveryIteration) {
-  std::vector<Progress> told;
+  std::vector<int> told;
   const std::vector<std::string> sets{"stopping={min_progress: 0, max_iterations: 3}"};
   register_pair(pair_of(sets), method_of(sets), device_, 1,
-                [&](const Progress& progress) { told.push_back(progress); });
-  ASSERT_EQ(told.size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(told[i].what, "synthetic sheet");
-    EXPECT_NEAR(told[i].done, (static_cast<double>(i) + 1) / 3, 1e-12);
-    EXPECT_THAT(told[i].message, HasSubstr("iteration " + std::to_string(i + 1) + ": residual "));
-  }
+                [&](const IterationView& view) { told.push_back(view.number); });
+  EXPECT_THAT(told, ::testing::ElementsAre(1, 2, 3));
 }
 
 TEST_F(RegistrationTest, AnObserverSeesEachIteration) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "experiments/report/pictures.h"
 #include "experiments/report/plot.h"
 #include "framework/io/file.h"
 #include "tests/report/sample_run.h"
@@ -66,49 +65,52 @@ TEST(LogPlot, LabelsANarrowRangeToo) {
   EXPECT_GE(count(log_plot_svg({7}, "", ""), "class=\"grid\""), 1u);
 }
 
-TEST(Page, HoldsTheNumbers) {
-  const SampleRun sample(4);
-  const std::string page = make_page(sample.input());
-  for (const char* text : {"1534", "2002", "3072", "gauss_newton", "cholesky", "converged",
-                           "residual_settled", "87 of 123 agree", "10.0 mm", "From 81234.5 to 1021.25",
-                           "solve", "90.25", "12.50", "110.75", "100.0 %"}) {
+TEST(Page, HoldsEveryKindOfArtefact) {
+  const std::string page = make_page(sample_run());
+  for (const char* text :
+       {"<li>warning: dark &amp; noisy</li>", "<h2>Distances &amp; more</h2>", "<th>before</th>",
+        "<td>30.00 <span class=\"quiet\">± 2.00</span></td><td class=\"final\">4.00</td>",
+        "<tr><th scope=\"row\">Nodes</th><td>256</td></tr>", "<h2>Energy</h2>", "energy (log scale)",
+        "From 1000 to 5."})
     EXPECT_THAT(page, HasSubstr(text));
-  }
-  // EPE: 30 mm at first, 20 after the alignment, 4 at the end.
-  EXPECT_THAT(page, HasSubstr("<td>30.00</td><td>20.00</td><td class=\"final\">4.00</td>"));
 }
 
-TEST(Page, OmitsTruthThatIsNotKnown) {
-  SampleRun sample(4);
-  sample.run.initial.truth.reset();
-  sample.run.aligned.truth.reset();
-  sample.run.metrics.truth.reset();
-  EXPECT_THAT(make_page(sample.input()), Not(HasSubstr("EPE")));
+TEST(Page, DrawsBarsWhereATableHasThem) {
+  const std::string page = make_page(sample_run());
+  EXPECT_THAT(
+      page, HasSubstr("solve</th><td class=\"bar\"><span style=\"width:100.0%\"></span></td><td>90.25</td>"));
+  EXPECT_THAT(page, HasSubstr("width:50.0%"));
+  EXPECT_THAT(page, HasSubstr("total</th><td></td><td>110.75</td>"));
+}
+
+TEST(Page, OmitsWhatThereIsNot) {
+  RunArtefacts run;
+  run.name = "bare";
+  const std::string page = make_page(run);
+  for (const char* text : {"Notes", "Pictures", "<img", "<table"}) EXPECT_THAT(page, Not(HasSubstr(text)));
 }
 
 TEST(Page, NeedsNoOtherFile) {
-  const SampleRun sample(4);
-  const std::string page = make_page(sample.input());
-  EXPECT_EQ(count(page, "<img"), 6u);
-  for (const Picture& picture : draw_pictures(sample.input())) {
-    EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64," + base64(picture.png)));
-  }
+  const RunArtefacts run = sample_run();
+  const std::string page = make_page(run);
+  EXPECT_EQ(count(page, "<img"), 1u);
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64," + base64(run.pictures[0].png())));
   EXPECT_THAT(page, Not(HasSubstr("http")));
 }
 
 TEST(Page, EscapesNames) {
-  const std::string page = make_page(SampleRun(4).input());
-  EXPECT_THAT(page, HasSubstr("sheet/&lt;fast&gt;"));
-  EXPECT_THAT(page, HasSubstr("planes &amp; more"));
+  const std::string page = make_page(sample_run());
+  for (const char* text :
+       {"sheet/&lt;fast&gt;", "planes &amp; more", "ended &lt;well&gt;", "Depth &amp; more"})
+    EXPECT_THAT(page, HasSubstr(text));
   EXPECT_THAT(page, Not(HasSubstr("<fast>")));
 }
 
 TEST(Page, IsWrittenAsIndexHtml) {
-  const SampleRun sample(4);
+  const RunArtefacts run = sample_run();
   const auto folder = test_folder();
-  EXPECT_THAT(make_report("page")->write(sample.input(), folder),
-              testing::ElementsAre(folder / "index.html"));
-  EXPECT_EQ(read_file((folder / "index.html").string()), bytes_of(make_page(sample.input())));
+  EXPECT_THAT(make_report("page")->write(run, folder), testing::ElementsAre(folder / "index.html"));
+  EXPECT_EQ(read_file((folder / "index.html").string()), bytes_of(make_page(run)));
 }
 
 }  // namespace

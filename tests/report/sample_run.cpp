@@ -2,47 +2,40 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/report/heat_map.h"
 #include "experiments/report/reports.h"
 
 namespace pliant {
 namespace {
 
-std::vector<Eigen::Vector3f> moved(std::vector<Eigen::Vector3f> points, float z) {
-  for (Eigen::Vector3f& point : points) point.z() += z;
-  return points;
+Surface plane() {
+  Frame frame;
+  frame.depth = DepthImage(40, 30, 800);
+  for (int v = 0; v < 30; ++v) frame.depth(10, v) = 0;
+  return make_surface(make_surface_image(frame, {50, 50, 19.5, 14.5, 40, 30}), {});
 }
 
 }  // namespace
 
-SampleRun::SampleRun(float left) {
-  pair.name = "planes & more";
-  pair.camera = {50, 50, 19.5, 14.5, 40, 30};
-  pair.source.depth = DepthImage(40, 30, 800);
-  for (int v = 0; v < 30; ++v) pair.source.depth(10, v) = 0;
-  pair.target.depth = DepthImage(40, 30, target_depth);
-  const PairTruth truth{Image<Eigen::Vector3f>(40, 30, Eigen::Vector3f(0, 0, target_depth - 800))};
-  target = make_surface_image(pair.target, pair.camera);
-  RegistrationResult& result = run.result;
-  result.source = make_surface(make_surface_image(pair.source, pair.camera), {});
-  result.aligned_points = moved(result.source.points, 10);
-  result.points = moved(result.source.points, target_depth - 800 - left);
-  result.normals = result.source.normals;
-  result.alignment.motion = Eigen::Translation3d(0, 0, 10);
-  result.alignment.matches = 123;
-  result.alignment.inliers = 87;
-  result.counts = {static_cast<int>(result.source.size()), 256, 1534, 2002, 3072, 14, 51};
-  result.energy = {81234.5, 1021.25, {5000, 1021.25}};
-  result.solver = {"gauss_newton", "cholesky", "converged"};
-  result.termination = "residual_settled";
-  result.time_ms = {{"solve", 90.25}, {"match", 12.5}};
-  result.total_ms = 110.75;
-  const Evaluation evaluation(pair, truth, result.source, target);
-  nearest = {evaluation.nearest(result.source.points), evaluation.nearest(result.aligned_points),
-             evaluation.nearest(result.points)};
+RunArtefacts sample_run() {
+  RunArtefacts run;
   run.name = "sheet/<fast>";
-  run.initial = evaluation.measure(result.source.points);
-  run.aligned = evaluation.measure(result.aligned_points);
-  run.metrics = evaluation.measure(result.points);
+  run.lead = "Registration of planes & more";
+  run.notes = {"ended <well>", "warning: dark & noisy"};
+  run.tables = {
+      {"Distances & more", {"", "before", "after"}, {{{"residual", "30.00 ± 2.00", "4.00"}}}, 2},
+      {"Counts", {}, {{{"Nodes", "256"}}}},
+      {"Time in ms", {}, {{{"solve", "90.25"}}, {{"match", "45.12"}}, {{"total", "110.75"}}}, {}, {8, 4}}};
+  run.series = {{"Energy", "outer iteration", "energy", {1000, 10, 1, 5}, "From 1000 to 5."}};
+  run.pictures = {{"depth", "Depth & more",
+                   [] { return draw_heat_map(Image<float>(40, 30, 1), {}, "title", "subtitle"); }}};
+  NamedSurface moved{"moved", plane(), {}, {}, plane().points};
+  for (Eigen::Vector3f& point : moved.surface.points) point.z() += 26;
+  moved.errors.assign(moved.surface.size(), 4);
+  moved.matched.assign(moved.surface.size(), 1);
+  moved.matched[3] = 0;
+  run.surfaces = {{"rest", plane(), std::vector<float>(plane().size(), 30)}, moved};
+  return run;
 }
 
 std::filesystem::path test_folder() {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -150,32 +151,42 @@ TEST(Triangulate, SpansNoDepthStepAndNoHole) {
   EXPECT_TRUE(triangulate({}, 20).empty());
 }
 
-TEST(SurfacesReport, WritesSourceTargetAndRegistered) {
-  const SampleRun sample(4);
+TEST(SurfacesReport, WritesEachSurfaceUnderItsName) {
+  const RunArtefacts run = sample_run();
   const auto folder = test_folder();
-  const auto files = make_report("surfaces")->write(sample.input(), folder);
-  EXPECT_THAT(files,
-              testing::ElementsAre(folder / "source.ply", folder / "target.ply", folder / "registered.ply"));
-  const Ply source = read_ply(files[0]);
-  const Ply target = read_ply(files[1]);
-  const Ply registered = read_ply(files[2]);
-  ASSERT_EQ(source.vertices.size(), 39u * 30);
-  ASSERT_EQ(registered.vertices.size(), source.vertices.size());
-  ASSERT_EQ(target.vertices.size(), 40u * 30);
-  EXPECT_EQ(target.triangles.size(), 2u * 39 * 29);
-  EXPECT_EQ(source.triangles.size(), 2u * 37 * 29);  // none across the empty column
-  for (std::size_t i = 0; i < source.vertices.size(); ++i) {
-    EXPECT_FLOAT_EQ(source.vertices[i].position[2], 800);  // as given, before the alignment
-    EXPECT_FLOAT_EQ(registered.vertices[i].position[2], 826);
-    EXPECT_NEAR(registered.vertices[i].error, sample.nearest.final[i], 1e-5);
-    EXPECT_EQ(registered.vertices[i].pixel[0], source.vertices[i].pixel[0]);
-    EXPECT_EQ(registered.vertices[i].pixel[1], source.vertices[i].pixel[1]);
+  const auto files = make_report("surfaces")->write(run, folder);
+  ASSERT_THAT(files, testing::ElementsAre(folder / "rest.ply", folder / "moved.ply"));
+  EXPECT_THAT(make_report("surfaces")->files({{}, {"rest", "moved"}}),
+              testing::ElementsAre("rest.ply", "moved.ply"));
+  const Ply rest = read_ply(files[0]);
+  const Ply moved = read_ply(files[1]);
+  ASSERT_EQ(rest.vertices.size(), 39u * 30);
+  ASSERT_EQ(moved.vertices.size(), rest.vertices.size());
+  EXPECT_EQ(rest.triangles.size(), 2u * 37 * 29);  // none across the empty column
+  for (std::size_t i = 0; i < rest.vertices.size(); ++i) {
+    EXPECT_FLOAT_EQ(rest.vertices[i].position[2], 800);
+    EXPECT_FLOAT_EQ(moved.vertices[i].position[2], 826);
+    EXPECT_EQ(moved.vertices[i].pixel[0], rest.vertices[i].pixel[0]);
+    EXPECT_EQ(moved.vertices[i].pixel[1], rest.vertices[i].pixel[1]);
   }
-  EXPECT_THAT(source.vertices[10].pixel, testing::ElementsAre(11, 0));
-  EXPECT_THAT(target.vertices[41].pixel, testing::ElementsAre(1, 1));
-  EXPECT_GT(source.vertices[0].error, registered.vertices[0].error);
-  EXPECT_EQ(target.vertices[0].error, 0);
-  EXPECT_EQ(target.vertices[0].color[0], target.vertices[0].color[2]) << "no colour: grey";
+  EXPECT_THAT(rest.vertices[10].pixel, testing::ElementsAre(11, 0));
+  EXPECT_EQ(rest.vertices[0].error, 30);
+  EXPECT_EQ(moved.vertices[0].error, 4);
+  EXPECT_EQ(moved.vertices[3].matched, 0);
+  EXPECT_EQ(moved.vertices[4].matched, 1);
+  EXPECT_EQ(rest.vertices[0].color[0], rest.vertices[0].color[2]) << "no colour: grey";
+}
+
+TEST(SurfacesReport, JoinsWhatWereNeighboursAtRest) {
+  RunArtefacts run = sample_run();
+  const auto folder = test_folder();
+  NamedSurface& moved = run.surfaces[1];
+  moved.surface.points[20].z() += 100;  // far beyond depth_step
+  make_report("surfaces")->write(run, folder);
+  EXPECT_EQ(read_ply(folder / "moved.ply").triangles.size(), 2u * 37 * 29);
+  moved.rest.clear();
+  make_report("surfaces")->write(run, folder);
+  EXPECT_LT(read_ply(folder / "moved.ply").triangles.size(), 2u * 37 * 29);
 }
 
 }  // namespace

@@ -165,11 +165,11 @@ TEST_F(DenseCholesky, TheSameBitsEveryTime) {
 class Counted : public StepSolver {
  public:
   Counted(std::unique_ptr<StepSolver> steps, int& count) : steps_(std::move(steps)), count_(count) {}
-  void solve(const cl::Buffer& status) override {
+  void solve(const Buffer& status) override {
     ++count_;
     steps_->solve(status);
   }
-  const cl::Buffer& step() const override { return steps_->step(); }
+  const Buffer& step() const override { return steps_->step(); }
 
  private:
   std::unique_ptr<StepSolver> steps_;

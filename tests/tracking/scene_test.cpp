@@ -113,6 +113,18 @@ TEST(Scene, FiltersWhatIsRegisteredAndKeepsWhatWasGiven) {
   EXPECT_LT(difference(scene.target, make_surface_image(pair.target, kCamera)), 1e-2);
 }
 
+TEST(Scene, MayFilterTheSourceAlone) {
+  Device device;
+  StageTimes times;
+  const FramePair pair = made_pair();
+  Method method = method_with(std::make_unique<Unfiltered>());
+  method.source_filter = std::make_unique<BilateralFilter>(4.5, 30, 6);
+  const Scene scene = make_scene(pair, method, device, 1, times);
+  EXPECT_LT(difference(scene.target, make_surface_image(pair.target, kCamera)), 1e-3);
+  const ScenePoints points = read_points(scene);
+  EXPECT_GT(difference(points.aligned, turned(points.source.points)), 1) << "the filter did something";
+}
+
 TEST(Scene, NeedsAPoint) {
   Device device;
   StageTimes times;

@@ -1,4 +1,4 @@
-#include "experiments/runner/table.h"
+#include "experiments/report/table.h"
 
 #include <gmock/gmock.h>
 
@@ -20,8 +20,8 @@ TEST(Table, TextAlignsNamesLeftAndNumbersRight) {
 
 TEST(Table, PageEscapesNamesAndLinksThemWhereTheyLead) {
   const std::string page = make_overview_page("All", "of it", {table});
-  EXPECT_THAT(page, HasSubstr("<td><a href=\"sheet/index.html\">a&lt;b</a></td><td>0.86</td>"));
-  EXPECT_THAT(page, HasSubstr("<td>longer</td><td>12.50</td>"));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"row\"><a href=\"sheet/index.html\">a&lt;b</a></th><td>0.86</td>"));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"row\">longer</th><td>12.50</td>"));
   EXPECT_THAT(page, Not(HasSubstr("a<b")));
 }
 

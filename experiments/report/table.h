@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,17 @@ struct Table {
     std::string link = {};  ///< where the first cell leads on a page; empty: nowhere
   };
   std::string title;
-  std::vector<std::string> header;
+  std::vector<std::string> header;  ///< empty: rows are a name and a value
   std::vector<Row> rows;
+  std::optional<std::size_t> main_column = {};  ///< the one that a page stresses
+  std::vector<double> bars = {};  ///< of the first rows: lengths that a page draws before the last cell
 };
 
 /// The first column is left-aligned, all others right-aligned.
 std::string to_text(const Table& table);
+
+/// A titled part of a page.
+std::string to_html(const Table& table);
 
 /// An HTML page that needs no other file.
 std::string make_overview_page(const std::string& title, const std::string& lead,

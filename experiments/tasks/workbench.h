@@ -14,6 +14,15 @@
 
 namespace pliant {
 
+/// The keys under which an experiment says how kernels are shaped.
+ParameterTable kernels_table();
+
+/// What an experiment asks of its device. Throws ConfigError for what no device has.
+DeviceOptions device_options(const Parameters& experiment);
+
+/// The same text for sections that say the same, of the same files.
+std::string fingerprint(const Parameters& section);
+
 /// Opens devices and loads data, each once however many runs ask for it.
 class Workbench {
  public:

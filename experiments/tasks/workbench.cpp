@@ -1,16 +1,51 @@
-#include "experiments/runner/workbench.h"
+#include "experiments/tasks/workbench.h"
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <type_traits>
 
 #include "experiments/datasets/frame_source.h"
-#include "experiments/runner/experiment.h"
 
 namespace pliant {
+
+ParameterTable kernels_table() {
+  return {
+      integer("vector_width")
+          .optional()
+          .range(1, 16)
+          .doc("of the vectors that kernels are written over: 1 or 16; 16 on a CPU, 1 on a GPU by default"),
+      integer("work_group_size")
+          .optional()
+          .range(1, 4096)
+          .doc("work-items that solve one system together, a power of two; 1 on a CPU, 128 on a GPU by "
+               "default"),
+  };
+}
+
+DeviceOptions device_options(const Parameters& experiment) {
+  const Parameters& kernels = experiment.section("kernels");
+  const auto number = [&](const std::string& name) {
+    return kernels.has(name) ? std::optional(static_cast<int>(kernels.integer(name))) : std::nullopt;
+  };
+  DeviceOptions options{number("vector_width"), number("work_group_size"), ""};
+  const std::string wrong = Device::complaint(options);
+  if (!wrong.empty()) throw ConfigError(fmt::format("{}: 'kernels' asks for {}", kernels.place(), wrong));
+  return options;
+}
+
 namespace {
 
-/// The same text for sections that say the same.
+/// Of a file, so that another one under the same name is not taken for it; of any other word nothing.
+std::string time_of_change(const std::filesystem::path& word) {
+  std::error_code ignored;
+  if (!word.is_absolute() || !std::filesystem::is_regular_file(word, ignored)) return "";
+  const auto time = std::filesystem::last_write_time(word, ignored);
+  return fmt::format("@{}", time.time_since_epoch().count());
+}
+
+}  // namespace
+
 std::string fingerprint(const Parameters& section) {
   std::string text = section.component() + "{";
   for (const auto& value : section.values()) {
@@ -26,6 +61,7 @@ std::string fingerprint(const Parameters& section) {
             for (const double number : held) text += fmt::format("{},", number);
           } else {
             text += fmt::format("{}", held);
+            if constexpr (std::is_same_v<Held, std::string>) text += time_of_change(held);
           }
         },
         value.value);
@@ -33,8 +69,6 @@ std::string fingerprint(const Parameters& section) {
   }
   return text + "}";
 }
-
-}  // namespace
 
 Device& Workbench::device(const Parameters& experiment) {
   const std::string& name = experiment.text("device");

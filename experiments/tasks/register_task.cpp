@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include "experiments/tasks/registration_artefacts.h"
+#include "framework/imaging/depth_map.h"
+#include "framework/tracking/register_pair.h"
+
+namespace pliant {
+namespace {
+
+/// Tells of each iteration, and keeps how large graph and constraints were in it.
+Observer watching(const ProgressSink& progress, const std::string& label, const Method& method,
+                  GraphGrowth& growth) {
+  const int most = method.stopping.max_iterations;
+  return [&growth, tell = labelled(progress, label), most](const IterationView& view) {
+    const auto nodes = static_cast<double>(view.graph.nodes.size());
+    const auto constraints = static_cast<double>(view.constraints.size());
+    if (view.number == 1) growth = {{nodes}, {constraints}};
+    growth.nodes.push_back(nodes);
+    growth.constraints.push_back(constraints);
+    tell({"", view.is_last ? 1.0 : static_cast<double>(view.number) / most,
+          fmt::format("iteration {}: residual {:.3f} mm", view.number, view.measured.residual_mean)});
+  };
+}
+
+class RegisterTask : public Task {
+ public:
+  ArtefactNames names() const override {
+    return {{"depth_source", "depth_target", "error_initial", "error_aligned", "error_final", "graph"},
+            {"source", "target", "registered"}};
+  }
+
+  void check(const ExperimentRun& run, Workbench& workbench) const override {
+    make_method(run, workbench.registry());
+    workbench.pair(run.values);
+    workbench.device(run.values);
+  }
+
+  RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const ProgressSink& progress,
+                    int repeats) const override {
+    const FramePair& pair = workbench.pair(run.values);
+    const Method method = make_method(run, workbench.registry());
+    const auto seed = static_cast<std::uint64_t>(run.values.integer("seed"));
+    Device& device = workbench.device(run.values);
+    Timing timing;
+    GraphGrowth growth;
+    const RegistrationResult result = told_with_place(run.place, pair, [&] {
+      return make_timed(device, repeats, timing, [&](const std::string& label) {
+        return register_pair(pair, method, device, seed, watching(progress, label, method, growth));
+      });
+    });
+    const SurfaceImage target = make_surface_image(device, pair.target, pair.camera);
+    const Evaluation evaluation(pair, workbench.truth(run.values), result.source, target);
+    return registration_artefacts(run, pair, target, result, measure(evaluation, result, progress), growth,
+                                  timing);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Task> make_register_task() { return std::make_unique<RegisterTask>(); }
+
+}  // namespace pliant
