@@ -14,6 +14,7 @@
 #include "experiments/methods/ed.yaml.embed.h"
 #include "experiments/runner/components.h"
 #include "experiments/runner/experiment.h"
+#include "experiments/tasks/workbench.h"
 #include "framework/tracking/register_pair.h"
 
 namespace pliant {

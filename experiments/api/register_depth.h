@@ -87,8 +87,8 @@ class DepthRegistration {
   std::unique_ptr<Parts> parts_;
 };
 
-/// The same for a single pair. Opening the device and building its kernels costs more than a registration
-/// does: for several pairs keep a DepthRegistration.
+/// The same for a single pair. Opening the device and loading its kernels costs more than registering small
+/// images: for several pairs keep a DepthRegistration.
 DepthRegistrationResult register_depth(const DepthView& source, const DepthView& target, const Camera& camera,
                                        const DepthRegistrationOptions& options = {});
 

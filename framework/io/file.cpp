@@ -10,7 +10,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "framework/core/error.h"
 
@@ -56,7 +55,15 @@ std::vector<std::uint8_t> read_file(const std::string& path) {
   }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw DataError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::vector<std::uint8_t> bytes;
+  // By growing blocks: a pipe does not say how long it is.
+  while (stream) {
+    const std::size_t done = bytes.size();
+    bytes.resize(2 * done + 65536);
+    stream.read(reinterpret_cast<char*>(bytes.data() + done),
+                static_cast<std::streamsize>(bytes.size() - done));
+    bytes.resize(done + static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad()) throw DataError(fmt::format("{}: reading failed", path));
   return bytes;
 }

@@ -22,6 +22,16 @@ TEST_F(File, ReadsWhatWasWritten) {
   EXPECT_EQ(read_file(file("a")), bytes);
 }
 
+TEST_F(File, AnySizeIsReadWhole) {
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{65535}, std::size_t{65536}, std::size_t{500001}}) {
+    std::vector<std::uint8_t> bytes(size);
+    for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::uint8_t>(i * 7 + i / 256);
+    write_file(file("a"), bytes);
+    EXPECT_EQ(read_file(file("a")), bytes) << size;
+  }
+}
+
 TEST_F(File, MissingIsAnError) {
   EXPECT_THAT(data_error_of([&] { read_file(file("none")); }), HasSubstr("none: no such file"));
 }
