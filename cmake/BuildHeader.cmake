@@ -7,6 +7,9 @@ if(FAILED)
 endif()
 execute_process(COMMAND git diff HEAD WORKING_DIRECTORY "${SOURCE}" OUTPUT_VARIABLE CHANGES ERROR_QUIET)
 string(SHA1 CHANGES "${CHANGES}")
+if(FAILED)
+  string(TIMESTAMP CHANGES "%s") # nothing tells one state of the sources from another
+endif()
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT [[
 // Made by cmake/BuildHeader.cmake; do not edit.
 #pragma once

@@ -24,8 +24,8 @@ class ViewReader {
     Frame frame;
     frame.depth =
         std::visit([&](const auto& depth) { return depth_image(depth, view.depth_scale); }, view.depth);
-    if (view.rgb.data() != nullptr || !view.rgb.empty()) frame.color = color_image(view.rgb);
-    if (view.mask.data() != nullptr || !view.mask.empty()) frame.mask = mask_image(view.mask);
+    if (!view.rgb.empty()) frame.color = color_image(view.rgb);
+    if (!view.mask.empty()) frame.mask = mask_image(view.mask);
     return frame;
   }
 

@@ -37,7 +37,7 @@ std::mutex& guard() {
 }
 
 std::set<ResultFolder*>& open_folders() {
-  static std::set<ResultFolder*> folders;
+  static auto& folders = *new std::set<ResultFolder*>;  // never destroyed: asked for while the program exits
   return folders;
 }
 
@@ -190,6 +190,7 @@ void ResultFolder::open() {
   } catch (const DataError&) {
     if (lock_ >= 0) ::close(lock_);
     unfinished_.clear();
+    is_kept_ = false;
     abandon();
     throw;
   }

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <string_view>
 
 #include "experiments/runner/version.h"
 #include "experiments/tasks/json_file.h"
 #include "framework/core/error.h"
+#include "framework/io/file.h"
 
 namespace pliant {
 namespace {
@@ -38,6 +40,13 @@ Table table_of(const ordered_json& json) {
   return table;
 }
 
+/// Tells a file from one that is torn or was edited. Throws DataError when it cannot be read.
+std::string mark_of(const fs::path& file) {
+  const std::vector<std::uint8_t> bytes = read_file(file.string());
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return fmt::format("{} {:016x}", bytes.size(), std::hash<std::string_view>{}(text));
+}
+
 struct Stored {
   RunSummary run;
   std::vector<std::string> files;
@@ -48,12 +57,11 @@ std::optional<Stored> read_run(const fs::path& folder, const std::string& key) {
   try {
     const ordered_json json = read_json((folder / file_name).string());
     if (json.at("key") != key) return {};
-    const std::vector<std::string> files = json.at("files");
-    const bool is_whole = std::all_of(files.begin(), files.end(), [&](const fs::path& file) {
-      std::error_code ignored;
-      return file.filename() == file && fs::is_regular_file(folder / file, ignored);
-    });
-    if (!is_whole) return {};
+    std::vector<std::string> files;
+    for (const auto& [name, mark] : json.at("files").items()) {
+      if (fs::path(name).filename() != name || mark_of(folder / name) != mark) return {};
+      files.push_back(name);
+    }
     return Stored{{folder.filename().string(), json.at("run"), table_of(json.at("summary")), json.at("notes"),
                    json.at("failure")},
                   files};
@@ -84,8 +92,8 @@ std::string run_key(const Task& task, const ExperimentRun& run, const DeviceInfo
 }
 
 void RunStore::write(const RunSummary& run, const std::string& key, const Files& files) const {
-  ordered_json names = ordered_json::array();
-  for (const auto& written : files) names.push_back(written.filename().string());
+  auto marks = ordered_json::object();
+  for (const auto& written : files) marks[written.filename().string()] = mark_of(written);
   write_json((folder_ / run.name / file_name).string(), {{"schema", 1},
                                                          {"key", key},
                                                          {"version", version()},
@@ -94,7 +102,7 @@ void RunStore::write(const RunSummary& run, const std::string& key, const Files&
                                                          {"summary", table_json(run.summary)},
                                                          {"notes", run.notes},
                                                          {"failure", run.failure},
-                                                         {"files", names}});
+                                                         {"files", marks}});
 }
 
 std::optional<RunSummary> RunStore::find(const std::string& name, const std::string& key) const {

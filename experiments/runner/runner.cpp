@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "experiments/report/report.h"
@@ -95,25 +96,48 @@ class Runs {
       made_.taken.push_back(run.name);
       return;
     }
-    try {
-      made_.runs.push_back(make_run(run, folder, finished));
-    } catch (const Error& error) {
-      if (plan_.has_variants()) finished.remove(run.name);
+    const auto failed = [&](const Error& error) {
       made_.failed.push_back({run.name, error.what(), std::current_exception()});
+    };
+    std::optional<RunArtefacts> made;
+    try {
+      made = task_.make(run, workbench_, under_name(progress_, run.name), repeats_);
+    } catch (const Error& error) {
+      return failed(error);
+    }
+    try {
+      write_run(run, *made, folder, finished);
+      made_.runs.push_back(std::move(*made));
+    } catch (const NumericalError& error) {
+      remove(run, finished);
+      failed(error);
+    } catch (const Error&) {  // what cannot be written ends it all: nor could the others be
+      remove(run, finished);
+      throw;
     }
   }
 
-  RunSummary make_run(const ExperimentRun& run, const fs::path& folder, const RunStore& finished) const {
-    const ProgressSink progress = under_name(progress_, run.name);
-    RunArtefacts made = task_.make(run, workbench_, progress, repeats_);
+  void remove(const ExperimentRun& run, const RunStore& finished) const {
+    if (plan_.has_variants()) finished.remove(run.name);
+  }
+
+  void write_run(const ExperimentRun& run, const RunArtefacts& made, const fs::path& folder,
+                 const RunStore& finished) const {
     const fs::path own = plan_.has_variants() ? folder / run.name : folder;
     std::error_code error;
     fs::create_directories(own, error);
     if (error) throw DataError(fmt::format("{}: cannot be made: {}", own.string(), error.message()));
-    const RunStore::Files files =
-        task_.is_reported() ? write_reports(run, made, own, progress) : RunStore::Files{};
+    const RunStore::Files files = task_.is_reported()
+                                      ? write_reports(run, made, own, under_name(progress_, run.name))
+                                      : RunStore::Files{};
     if (plan_.has_variants()) finished.write(made, key(run), files);
-    return made;
+  }
+
+  /// What the overview tells of the runs that are missing.
+  Table failures() const {
+    Table table{"Failed", {"run", "why"}, {}};
+    for (const auto& failed : made_.failed) table.rows.push_back({{failed.name, failed.message}});
+    return table;
   }
 
   RunStore::Files write_reports(const ExperimentRun& run, const RunArtefacts& made, const fs::path& folder,
@@ -130,11 +154,12 @@ class Runs {
   /// What tells of all runs.
   void write_overview(const fs::path& folder) const {
     write_text(folder / "experiment.yaml", plan_.experiment.to_yaml());
-    const DeviceInfo& device = workbench_.device(plan_.experiment.values).info();
+    const DeviceInfo& device = workbench_.device(plan_.runs.front().values).info();
     write_json((folder / task_.result_file()).string(), result_json(plan_, device, made_));
     if (!plan_.has_variants() && task_.is_reported()) return;
-    write_text(folder / "index.html",
-               make_overview_page(plan_.name, task_.lead(), run_tables(task_, plan_, made_)));
+    std::vector<Table> tables = run_tables(task_, plan_, made_);
+    if (!made_.failed.empty()) tables.push_back(failures());
+    write_text(folder / "index.html", make_overview_page(plan_.name, task_.lead(), tables));
   }
 
   const Task& task_;

@@ -12,9 +12,9 @@ Observer watching(const ProgressSink& progress, const std::string& label, const 
   return [&growth, tell](const IterationView& view) {
     const auto nodes = static_cast<double>(view.graph.nodes.size());
     const auto constraints = static_cast<double>(view.constraints.size());
-    if (view.number == 1) growth = {{nodes}, {constraints}};
-    growth.nodes.push_back(nodes);
-    growth.constraints.push_back(constraints);
+    // One that fails is told under the number of the one before.
+    growth.nodes.resize(static_cast<std::size_t>(view.number) + 1, nodes);
+    growth.constraints.resize(static_cast<std::size_t>(view.number) + 1, constraints);
     tell(view);
   };
 }

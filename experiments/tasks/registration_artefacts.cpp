@@ -192,7 +192,7 @@ RunArtefacts registration_artefacts(const ExperimentRun& run, const FramePair& p
                      notes_of(ending(result), result.warnings, timing)}};
   if (result.termination == "failed")
     made.failure = fmt::format("{}: {}; the result is that of iteration {}", run.place, result.reason,
-                               result.counts.outer_iterations);
+                               result.returned_iteration);
   made.lead = "Non-rigid registration of " + pair.name;
   made.tables = {metrics_table(measured), counts_table(result.counts), method_table(result), timing.table()};
   made.series = {energy_series(result.energy, "outer iteration"), residual_series(result)};

@@ -88,6 +88,7 @@ const Workbench::Data& Workbench::data(const Parameters& experiment) {
   if (known != data_.end()) return known->second;
   const auto stream = registry_.make<FrameSource>(section)->open(static_cast<std::uint64_t>(seed));
   Data data{read_pair(*stream), stream->truth(2)};
+  if (data.truth) check(*data.truth, data.pair);
   return data_.emplace(key, std::move(data)).first->second;
 }
 

@@ -12,6 +12,8 @@
 namespace pliant {
 namespace {
 
+constexpr std::size_t most_staged = 16 << 20;  // bytes: what is larger is not copied once more on the host
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
@@ -199,6 +201,7 @@ Buffer Device::allocate(std::size_t bytes) const {
     return pool_->take(bytes, info_.most_bytes);
   } catch (const cl::Error&) {
     pool_->drop_unused();
+    finish();  // a driver frees what is dropped once no command uses it any more
   }
   try {
     return pool_->take(bytes, info_.most_bytes);
@@ -211,6 +214,10 @@ Buffer Device::allocate(std::size_t bytes) const {
 Buffer Device::upload(const void* data, std::size_t bytes) const {
   Buffer made = allocate(bytes);
   if (bytes == 0) return made;
+  if (bytes > most_staged) {
+    write(made, data, bytes);
+    return made;
+  }
   ++counts_.uploads;
   counts_.uploaded_bytes += bytes;
   try {
@@ -260,6 +267,7 @@ cl::Event Device::read_later(const Buffer& buffer, void* data, std::size_t bytes
   cl::Event event;
   try {
     queue_.enqueueReadBuffer(*buffer, CL_FALSE, 0, bytes, data, nullptr, &event);
+    queue_.flush();  // or a driver may begin only when somebody waits
   } catch (const cl::Error& error) {
     fail(fmt::format("reading {} bytes", bytes), error);
   }

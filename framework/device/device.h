@@ -101,7 +101,8 @@ class Device {
   /// when it does not fit. Buffers that all others have dropped are given out again.
   Buffer allocate(std::size_t bytes) const;
 
-  /// A buffer with a copy of host values, which may change at once; only enqueues.
+  /// A buffer with a copy of host values, which may change at once. Waits only where many bytes are under
+  /// way.
   Buffer upload(const void* data, std::size_t bytes) const;
   template <class T>
   Buffer upload(const std::vector<T>& values) const {

@@ -4,7 +4,8 @@
 
 namespace pliant {
 
-/// Whether a frame shows a point of the object at a pixel: it has depth, and lies on the mask if there is one.
+/// Whether a frame shows a point of the object at a pixel: it has depth, and lies on the mask if there is
+/// one.
 inline bool has_point(const Frame& frame, int u, int v) {
   return is_depth(frame.depth(u, v)) && (frame.mask.empty() || frame.mask(u, v) != 0);
 }

@@ -18,7 +18,7 @@ Vector at(const Array<float>& vectors, std::size_t index) {
   return Vector(vectors.host().data() + 3 * index);
 }
 
-constexpr float steepest_slope = 10;  // STEEPEST_SLOPE in projection.cl
+constexpr float steepest_slope = 10;  // STEEPEST_SLOPE in matching.cl
 
 Eigen::Vector3f mean_normal(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   const Eigen::Vector3f sum = a + b;

@@ -27,9 +27,8 @@ bool History::is_stuck() const {
   return is_near(last[1]) || (steps_.size() > 2 && now < last[1].residual_mean && is_near(last[2]));
 }
 
-void History::end_at(std::size_t iteration) {
-  steps_.resize(iteration + 1);
-  if (!is_after_schedule(iteration)) best_ = std::move(best_of_all_);
+void History::close() {
+  if (!is_after_schedule(last_iteration())) best_ = std::move(best_of_all_);
 }
 
 }  // namespace pliant

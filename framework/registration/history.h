@@ -36,8 +36,8 @@ class History {
   /// that are taken away where the surface fits, and given back once it no longer does, may swing for ever.
   bool is_stuck() const;
 
-  /// Forgets what came after an iteration, and settles what is best.
-  void end_at(std::size_t iteration);
+  /// Settles what is best: nothing comes after this.
+  void close();
   const State& best() const { return best_; }
   std::vector<Step> take_steps() { return std::move(steps_); }
 

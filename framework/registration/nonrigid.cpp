@@ -33,6 +33,14 @@ std::vector<std::uint8_t> flags(const Array<float>& values, Predicate holds) {
   return found;
 }
 
+bool has_failed(const SolverSummary& summary) {
+  return summary.termination == "failed" || !std::isfinite(summary.initial_energy + summary.final_energy);
+}
+
+std::string reason_of_failure(const SolverSummary& summary) {
+  return summary.failure.empty() ? "the energy is not finite" : summary.failure;
+}
+
 /// One run of the loop.
 class Loop {
  public:
@@ -62,8 +70,7 @@ class Loop {
       if (observer) observer(view());
       if (has_adapted) renew();
     }
-    collect_summaries();
-    history_.end_at(static_cast<std::size_t>(iterations_));  // without solves that have failed
+    history_.close();
     deform_best();
   }
 
@@ -120,7 +127,6 @@ class Loop {
 
   /// Goes on with what adapting chose, if it chose anything.
   void renew() {
-    collect_summaries();
     if (nodes_->points().empty())
       end("no_nodes", "the graph has lost all its nodes");
     else if (samples_->points().empty())
@@ -171,7 +177,12 @@ class Loop {
       shown_.reset();
       update_source();
       meter_.measure(moved_);
-      judge(meter_.read());
+      const Residual residual = meter_.read();
+      summaries_.push_back(solver_->summaries().back());
+      if (has_failed(summaries_.back()))
+        end("failed", reason_of_failure(summaries_.back()));
+      else
+        judge(residual);
     } catch (const NumericalError& error) {
       end("failed", error.what());
     }
@@ -261,18 +272,6 @@ class Loop {
   }
 
   // --- the end ---
-
-  /// A solve that failed has left the deformation as it was: the iterations before it are the result.
-  void collect_summaries() {
-    for (auto& summary : solver_->summaries()) summaries_.push_back(std::move(summary));
-    const auto last = summaries_.begin() + std::min<std::ptrdiff_t>(std::ssize(summaries_), iterations_);
-    const auto failed = std::find_if(summaries_.begin(), last, [](const SolverSummary& summary) {
-      return summary.termination == "failed" || !std::isfinite(summary.initial_energy + summary.final_energy);
-    });
-    if (failed == last) return;
-    iterations_ = static_cast<int>(failed - summaries_.begin());
-    end("failed", failed->failure.empty() ? "the energy is not finite" : failed->failure);
-  }
 
   /// Puts the source where the best iteration led, and finds what is matched there.
   void deform_best() {

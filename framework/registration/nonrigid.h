@@ -11,7 +11,7 @@ namespace pliant {
 /// A look at non-rigid registration after an outer iteration. What is on the device is copied only when it is
 /// read, and valid only during the call.
 struct IterationView {
-  int number;    ///< 1 for the first
+  int number;    ///< 1 for the first; of the one before, with its `measured`, where an iteration failed
   bool is_last;  ///< whether the loop has ended
   const NonRigidResult::Step& measured;
   const EmbeddedGraph& graph;
@@ -31,7 +31,7 @@ class NonRigid {
 
   /// The same input, method and device give the same bits. Throws DataError when the input or the graph gives
   /// too little to begin with, NumericalError when the source is not finite. What goes wrong later ends the
-  /// loop: the result is then that of the iteration before, and `termination` and `reason` say why.
+  /// loop: the result is then that of the best one before, and `termination` and `reason` say why.
   NonRigidResult run(const NonRigidInput& input, const Observer& observer = {}) const;
 
   /// The problem of the first outer iteration: graph built, constraints matched once, nothing solved. Solvers

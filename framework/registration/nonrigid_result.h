@@ -56,7 +56,7 @@ struct NonRigidResult {
 
   /// Why the outer loop ended: "residual", "no_progress" or "max_iterations"; "no_constraints" or "no_nodes"
   /// when nothing was left to go on with; "failed" when an iteration had no finite answer. After the last
-  /// three the result is that of the iteration before.
+  /// three the result is that of the best iteration before.
   std::string termination;
   /// Of one of those three, in words; or that none of the iterations was better than the start.
   std::string reason;

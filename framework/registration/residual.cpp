@@ -8,7 +8,7 @@
 namespace pliant {
 namespace {
 
-constexpr std::size_t chunk = 256;  // CHUNK in projection.cl
+constexpr std::size_t chunk = 256;  // CHUNK in matching.cl
 
 }  // namespace
 

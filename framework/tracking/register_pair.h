@@ -14,7 +14,7 @@ namespace pliant {
 /// Registers the source of a pair to its target [thesis Figure 4.1]. The same pair, method, seed and device
 /// give the same bits. Throws DataError when the pair or the graph gives too little to begin with,
 /// NumericalError when the source is not finite where the initial alignment puts it. What goes wrong later
-/// ends the loop: the result is then that of the iteration before, and `termination` and `reason` say why.
+/// ends the loop: the result is then that of the best one before, and `termination` and `reason` say why.
 /// The stages that run on the device are told in `time_ms` only while the device measures stages
 /// (Device::measure_stages).
 RegistrationResult register_pair(const FramePair& pair, const Method& method, Device& device,

@@ -103,5 +103,43 @@ TEST_F(ArrayTest, KeepsItsValuesWhenMoved) {
   EXPECT_THAT(moved.host(), ElementsAre(3, 4));
 }
 
+TEST_F(ArrayTest, IsFetchedAsItWasThen) {
+  Array<float> values(std::vector<float>(100000, 1));
+  add(values, 1);
+  values.fetch();
+  values.fetch();
+  EXPECT_THAT(values.host(), testing::Each(2));
+  add(values, 1);
+  values.fetch();
+  add(values, 1);  // later than the copy, which is of no use then
+  EXPECT_THAT(values.host(), testing::Each(4));
+}
+
+TEST_F(ArrayTest, MayBeMovedReplacedOrDroppedWhileItIsFetched) {
+  for (int round = 0; round < 20; ++round) {
+    Array<float> values(std::vector<float>(100000, 1));
+    add(values, 1);
+    values.fetch();
+    Array<float> moved = std::move(values);
+    Array<float> replaced(std::vector<float>(100000, 5));
+    add(replaced, 1);
+    replaced.fetch();
+    replaced = std::move(moved);
+    EXPECT_THAT(replaced.host(), testing::Each(2));
+    Array<float> dropped(std::vector<float>(100000, 7));
+    add(dropped, 1);
+    dropped.fetch();
+  }
+}
+
+TEST_F(ArrayTest, AskedForWithoutADeviceNothingIsFetched) {
+  const Array<float> values(std::vector<float>{1, 2});
+  values.fetch();
+  EXPECT_THAT(values.host(), ElementsAre(1, 2));
+  const Array<float> none;
+  none.fetch();
+  EXPECT_TRUE(none.host().empty());
+}
+
 }  // namespace
 }  // namespace pliant

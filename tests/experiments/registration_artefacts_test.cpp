@@ -214,7 +214,7 @@ TEST(Registration, ThatFailedSaysWhereItCameFromAndWhatItGives) {
   SampleRun sample(4);
   sample.result.termination = "failed";
   sample.result.reason = "nothing finite";
-  EXPECT_EQ(sample.artefacts().failure, "sheet.yaml: nothing finite; the result is that of iteration 51");
+  EXPECT_EQ(sample.artefacts().failure, "sheet.yaml: nothing finite; the result is that of iteration 1");
 }
 
 TEST(Registration, GivesTheSurfacesWithTheDistancesThatAreShown) {

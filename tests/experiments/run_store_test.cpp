@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "experiments/report/report.h"
 #include "experiments/runner/runner.h"
 #include "tests/experiments/experiment_files.h"
 
@@ -56,14 +57,18 @@ TEST_F(RunStoreTest, GivesNothingElse) {
   EXPECT_TRUE(store_.find("a", "key"));
   EXPECT_FALSE(store_.find("a", "other key"));
   EXPECT_FALSE(store_.find("b", "key"));
+  write("store/a/index.html", "");
+  EXPECT_FALSE(store_.find("a", "key")) << "a file of the run is torn";
+  write("store/a/index.html", "qage");
+  EXPECT_FALSE(store_.find("a", "key")) << "a file of the run was edited";
   fs::remove(page);
   EXPECT_FALSE(store_.find("a", "key")) << "a file of the run is gone";
   write("store/a/run.json", "{\"key\": \"key\", ");
   EXPECT_FALSE(store_.find("a", "key"));
-  write("store/a/run.json", "{\"key\": \"key\", \"files\": []}");
+  write("store/a/run.json", "{\"key\": \"key\", \"files\": {}}");
   EXPECT_FALSE(store_.find("a", "key"));
   write("notes", "mine");
-  write("store/a/run.json", "{\"key\": \"key\", \"files\": [\"../../notes\"]}");
+  write("store/a/run.json", "{\"key\": \"key\", \"files\": {\"../../notes\": \"4 0\"}}");
   EXPECT_FALSE(store_.find("a", "key"));
 }
 
@@ -142,6 +147,32 @@ TEST_F(UnfinishedTest, ARunThatFailsKeepsNoOtherFromBeingMadeAndTold) {
   EXPECT_THAT(json["failed"][0]["error"].get<std::string>(), HasSubstr("small.yaml, run bad: "));
   EXPECT_EQ(files(),
             (std::set<std::string>{".pliant", "result.json", "experiment.yaml", "index.html", "a", "c"}));
+}
+
+TEST_F(UnfinishedTest, TheOverviewNamesTheRunsThatFailed) {
+  run(plan(with_a_bad_run));
+  EXPECT_THAT(text_of("out/index.html"), HasSubstr("choose a finer one"));
+}
+
+/// Writes nothing from the second run on, as to a disk that is full.
+class FullDisk : public Report {
+ public:
+  std::vector<std::string> files(const ArtefactNames&) const override { return {"f.txt"}; }
+  std::vector<fs::path> write(const RunArtefacts& run, const fs::path& folder) const override {
+    if (run.name != "a") throw DataError((folder / "f.txt").string() + ": No space left on device");
+    return {};
+  }
+};
+
+TEST_F(UnfinishedTest, WhatCannotBeWrittenLeavesTheOldResultWhole) {
+  run(plan("runs: {a: , b: }"));
+  const std::string before = text_of("out/result.json");
+  registry_.add<Report>("full_disk", "", {},
+                        [](const Parameters&, const Registry&) { return std::make_unique<FullDisk>(); });
+  const ExperimentPlan full = plan("runs: {a: , b: , c: }\nreports: {full_disk: }");
+  EXPECT_THAT(data_error_of([&] { run(full); }), HasSubstr("b/f.txt: No space left"));
+  EXPECT_EQ(text_of("out/result.json"), before);
+  EXPECT_TRUE(fs::exists(file("out/unfinished/a/run.json"))) << "what was finished is kept for the next call";
 }
 
 TEST_F(UnfinishedTest, TheNextCallTakesTheOthersUnchangedAndMakesTheFailedOneAgain) {

@@ -104,5 +104,22 @@ TEST_F(ScheduledRegistration, NoProgressEndsNothingBeforeTheScheduleDoes) {
   EXPECT_EQ(result.counts.outer_iterations, 6);
 }
 
+// The weights are others in each iteration, so that one whose energy is too large for a float may be followed
+// by good ones.
+TEST_F(ScheduledRegistration, ASolveThatFailsEndsTheLoopAtOnce) {
+  const Parameters values = plan("", {"schedule.iterations=4", "energies.constraint.initial_weight=1e39",
+                                      "stopping={min_progress: 0, max_iterations: 8}"})
+                                .runs[0]
+                                .values;
+  const RegistrationResult result =
+      register_pair(workbench_.pair(values), make_method(values, registry_), device_, 1);
+  EXPECT_EQ(result.termination, "failed");
+  EXPECT_NE(result.reason, "");
+  EXPECT_EQ(result.counts.outer_iterations, 0);
+  EXPECT_EQ(result.history.size(), 1U);
+  EXPECT_EQ(result.returned_iteration, 0);
+  EXPECT_EQ(result.points, result.aligned_points);
+}
+
 }  // namespace
 }  // namespace pliant::testing
