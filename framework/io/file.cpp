@@ -53,6 +53,8 @@ std::vector<std::uint8_t> read_file(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     throw DataError(fmt::format("{}: is a folder, expected a file", path));
   }
+  if (std::filesystem::is_character_file(path, ignored))  // which may never end
+    throw DataError(fmt::format("{}: is a device, expected a file", path));
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw DataError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   std::vector<std::uint8_t> bytes;

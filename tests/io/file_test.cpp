@@ -40,6 +40,10 @@ TEST_F(File, FolderIsAnError) {
   EXPECT_THAT(data_error_of([&] { read_file(file("")); }), HasSubstr("is a folder"));
 }
 
+TEST_F(File, ADeviceIsAnError) {
+  EXPECT_THAT(data_error_of([] { read_file("/dev/null"); }), HasSubstr("/dev/null: is a device"));
+}
+
 TEST_F(File, WritingIntoAMissingFolderIsAnError) {
   EXPECT_THAT(data_error_of([&] { write_file(file("no/where"), {1}); }),
               AllOf(HasSubstr("no/where: cannot be written"), HasSubstr("No such file")));
