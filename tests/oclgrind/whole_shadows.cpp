@@ -1,8 +1,8 @@
 // Loaded before the simulator, whose record of what was written (Oclgrind 21.10, --uninitialized) is kept per
 // buffer and goes wrong in three ways. It outlives the buffer, at the buffer's size, and the next buffer of
-// the same number inherits it; a fill shrinks it to one pattern; a write shrinks it to what is written. So
-// here no buffer is ever released, and fills and writes cover the whole buffer. The price: where a host
-// writes a part, the rest counts as written too.
+// the same number inherits it; a fill shrinks it to one pattern; a write or a copy shrinks it to what is
+// written. So here no buffer is ever released, and fills, writes and copies cover the whole buffer. The
+// price: where a part is written so, the rest counts as written too, and so does what is copied.
 #include <CL/cl.h>
 #include <dlfcn.h>
 
@@ -62,4 +62,14 @@ extern "C" cl_int clEnqueueFillBuffer(cl_command_queue queue, cl_mem buffer, con
                                       size_t pattern_size, size_t offset, size_t size, cl_uint wait_count,
                                       const cl_event* waits, cl_event* event) {
   return overwrite(queue, buffer, offset, size, pattern, pattern_size, wait_count, waits, event);
+}
+
+extern "C" cl_int clEnqueueCopyBuffer(cl_command_queue queue, cl_mem from, cl_mem to, size_t from_offset,
+                                      size_t to_offset, size_t size, cl_uint wait_count,
+                                      const cl_event* waits, cl_event* event) {
+  std::vector<char> values(size);
+  if (const cl_int error = clEnqueueReadBuffer(queue, from, CL_TRUE, from_offset, size, values.data(),
+                                               wait_count, waits, nullptr))
+    return error;
+  return overwrite(queue, to, to_offset, size, values.data(), size, 0, nullptr, event);
 }
