@@ -29,8 +29,9 @@ class RunStore {
   /// `files`: those that reports wrote, in the run's folder. Throws DataError when it cannot be written.
   void write(const RunSummary& run, const std::string& key, const Files& files) const;
 
-  /// A run with all its files, as they were; none where it is not there, is broken or came of anything else. One that only
-  /// the earlier result has is copied, with its files and no others. Throws DataError when it cannot be.
+  /// A run with all its files, as they were; none where it is not there, is broken or came of anything else.
+  /// One that only the earlier result has is copied, with its files and no others. Throws DataError when it
+  /// cannot be.
   std::optional<RunSummary> find(const std::string& name, const std::string& key) const;
 
   /// Removes what is there of a run.
