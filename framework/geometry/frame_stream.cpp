@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -41,12 +42,33 @@ void CheckedStream::check_time(double time) {
   time_ = time;
 }
 
+namespace {
+
+bool is_black(const ColorImage& image) {
+  return std::all_of(image.pixels().begin(), image.pixels().end(),
+                     [](const Rgb& color) { return color == Rgb{}; });
+}
+
+/// Gives the frame its colour at the depth's pixels; false when none of what was in colour is seen there.
+bool carry_color(Frame& frame, const Rig& rig) {
+  const bool was_black = is_black(frame.color);
+  frame.color = color_at_depth(frame, rig);
+  return was_black || !is_black(frame.color);
+}
+
+}  // namespace
+
 FramePair read_pair(FrameStream& stream) {
   CheckedStream frames(stream);
   FramePair pair{stream.name(), stream.rig().depth, frames.require("the source"),
                  frames.require("the target")};
-  for (Frame* frame : {&pair.source, &pair.target}) frame->color = color_at_depth(*frame, stream.rig());
+  const bool source_is_seen = carry_color(pair.source, stream.rig());
+  const bool target_is_seen = carry_color(pair.target, stream.rig());
   pair.warnings = stream.warnings();
+  if (!source_is_seen || !target_is_seen)
+    pair.warnings.push_back(fmt::format(
+        "the colour camera sees nothing of the {}'s depth; check its intrinsics and where it stands, in mm",
+        source_is_seen ? "target" : "source"));
   return pair;
 }
 

@@ -120,6 +120,20 @@ TEST(ReadPair, TakesTheFirstTwoFrames) {
   EXPECT_NO_THROW(check(pair));
 }
 
+TEST(ReadPair, WarnsWhereTheColourCameraSeesNothingOfTheDepth) {
+  const auto warnings_of = [](double shift) {
+    Frame source = frame_at(0);
+    Frame target = frame_at(1);
+    for (Frame* frame : {&source, &target}) frame->color = ColorImage(8, 6, Rgb{200, 100, 50});
+    ScriptedStream stream({source, target});
+    stream.rig_.color = stream.rig_.depth;
+    stream.rig_.color_from_depth = Eigen::Translation3d(shift, 0, 0);
+    return read_pair(stream).warnings;
+  };
+  EXPECT_THAT(warnings_of(0), ElementsAre("read 2"));
+  EXPECT_THAT(warnings_of(-90000), ElementsAre("read 2", ::testing::HasSubstr("nothing of the source's")));
+}
+
 TEST(ReadPair, SaysWhenAFrameIsMissing) {
   const auto error_of = [](std::vector<Frame> frames) {
     ScriptedStream stream(std::move(frames));
