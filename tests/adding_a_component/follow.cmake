@@ -46,6 +46,22 @@ function(add_to PATH ANCHOR TITLE LANGUAGE)
   file(WRITE ${TREE}/${PATH} "${AFTER}")
 endfunction()
 
+# Adds the component STEM to the room ROOM, whose list is the function FUNCTION of LIST.cpp. What the line TITLE
+# announces is an experiment that names it; it becomes the file EXPERIMENT of WORK.
+function(add_to_room ROOM STEM LIST FUNCTION TITLE EXPERIMENT)
+  write_example(${ROOM}/${STEM}.h ${STEM}/${STEM}.h)
+  write_example(${ROOM}/${STEM}.cpp ${STEM}/${STEM}.cpp)
+  set(SEPARATOR " ")
+  add_to(${ROOM}/CMakeLists.txt "SOURCES" "In `${ROOM}/CMakeLists.txt`, behind `SOURCES`" cmake)
+  set(SEPARATOR "\n")
+  add_to(${ROOM}/${LIST}.cpp "#include \"${ROOM}/${LIST}.h\""
+    "In `${ROOM}/${LIST}.cpp`, with the other includes" cpp)
+  add_to(${ROOM}/${LIST}.cpp "void ${FUNCTION}(Registry& registry) {"
+    "In `${ROOM}/${LIST}.cpp`, in `${FUNCTION}`" cpp)
+  code_block("${TITLE}" yaml TEXT)
+  file(WRITE ${WORK}/${EXPERIMENT} "${TEXT}")
+endfunction()
+
 set(TREE ${WORK}/tree)
 file(REMOVE_RECURSE ${TREE})
 file(COPY ${SOURCE}/energies ${SOURCE}/cmake DESTINATION ${TREE})
@@ -61,17 +77,10 @@ add_to(energies/energies.h "#define PLIANT_ENERGIES(ENERGY)"
 code_block("In an experiment file" yaml EXPERIMENT)
 file(WRITE ${WORK}/experiment.yaml "${EXPERIMENT}")
 
-set(ROOM experiments/datasets)
-write_example(${ROOM}/approaching_wall.h approaching_wall/approaching_wall.h)
-write_example(${ROOM}/approaching_wall.cpp approaching_wall/approaching_wall.cpp)
-add_to(${ROOM}/CMakeLists.txt "SOURCES" "In `${ROOM}/CMakeLists.txt`, behind `SOURCES`" cmake)
-set(SEPARATOR "\n")
-add_to(${ROOM}/datasets.cpp "#include \"experiments/datasets/datasets.h\""
-  "In `${ROOM}/datasets.cpp`, with the other includes" cpp)
-add_to(${ROOM}/datasets.cpp "void register_datasets(Registry& registry) {"
-  "In `${ROOM}/datasets.cpp`, in `register_datasets`" cpp)
-code_block("An experiment file names it" yaml EXPERIMENT)
-file(WRITE ${WORK}/frames.yaml "${EXPERIMENT}")
+add_to_room(experiments/datasets approaching_wall datasets register_datasets
+  "An experiment file names it" frames.yaml)
+add_to_room(framework/pose align_centroids alignments register_alignments
+  "As the alignment of an experiment" pose.yaml)
 
 write_example(experiments/report/csv.cpp csv/csv.cpp)
 set(SEPARATOR " ")
@@ -79,18 +88,6 @@ add_to(experiments/report/reports.h "#define PLIANT_REPORTS(REPORT)"
   "In `experiments/report/reports.h`, in the list `PLIANT_REPORTS`" cpp)
 code_block("Among the reports of an experiment" yaml EXPERIMENT)
 file(WRITE ${WORK}/reports.yaml "${EXPERIMENT}")
-
-set(ROOM framework/pose)
-write_example(${ROOM}/align_centroids.h align_centroids/align_centroids.h)
-write_example(${ROOM}/align_centroids.cpp align_centroids/align_centroids.cpp)
-add_to(${ROOM}/CMakeLists.txt "SOURCES" "In `${ROOM}/CMakeLists.txt`, behind `SOURCES`" cmake)
-set(SEPARATOR "\n")
-add_to(${ROOM}/alignments.cpp "#include \"framework/pose/alignments.h\""
-  "In `${ROOM}/alignments.cpp`, with the other includes" cpp)
-add_to(${ROOM}/alignments.cpp "void register_alignments(Registry& registry) {"
-  "In `${ROOM}/alignments.cpp`, in `register_alignments`" cpp)
-code_block("As the alignment of an experiment" yaml EXPERIMENT)
-file(WRITE ${WORK}/pose.yaml "${EXPERIMENT}")
 
 string(REPLACE "|" ";" CONFIGURE "${CONFIGURE}")
 run(${CMAKE_COMMAND} -S ${TREE} -B ${WORK}/build ${CONFIGURE} -DPLIANT_ROOMS=${ROOMS} -DPLIANT_SOURCE=${SOURCE})

@@ -44,15 +44,16 @@ class CentroidAlignment : public Alignment {
   double longest_;
 };
 
+std::unique_ptr<Alignment> make_centroids(const Parameters& section, const Registry& /*components*/) {
+  return std::make_unique<CentroidAlignment>(section.real("longest"));
+}
+
 }  // namespace
 
 void register_centroid_alignment(Registry& registry) {
   registry.add<Alignment>(
       "centroids", "Moves the centroid of the source to that of the target",
-      {real("longest", 500).unit("mm").above(0).doc("a longer way is taken for a mistake")},
-      [](const Parameters& section, const Registry&) {
-        return std::make_unique<CentroidAlignment>(section.real("longest"));
-      });
+      {real("longest", 500).unit("mm").above(0).doc("a longer way is taken for a mistake")}, make_centroids);
 }
 
 }  // namespace pliant

@@ -57,6 +57,12 @@ class ApproachingWall : public FrameSource {
   Wall wall_;
 };
 
+std::unique_ptr<FrameSource> make_wall(const Parameters& section, const Registry& /*components*/) {
+  return std::make_unique<ApproachingWall>(Wall{virtual_camera(section),
+                                                static_cast<int>(section.integer("frames")),
+                                                section.real("distance"), section.real("speed")});
+}
+
 }  // namespace
 
 void register_approaching_wall(Registry& registry) {
@@ -67,11 +73,7 @@ void register_approaching_wall(Registry& registry) {
           real("distance", 1000).unit("mm").above(0).doc("of the wall from the camera, at first"),
           real("speed", 100).unit("mm/s").doc("towards the camera"),
       }),
-      [](const Parameters& section, const Registry&) -> std::unique_ptr<FrameSource> {
-        return std::make_unique<ApproachingWall>(Wall{virtual_camera(section),
-                                                      static_cast<int>(section.integer("frames")),
-                                                      section.real("distance"), section.real("speed")});
-      });
+      make_wall);
 }
 
 }  // namespace pliant

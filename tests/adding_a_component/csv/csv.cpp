@@ -29,15 +29,16 @@ class CsvReport : public Report {
   char separator_;
 };
 
+std::unique_ptr<Report> make_csv(const Parameters& section, const Registry& /*components*/) {
+  return std::make_unique<CsvReport>(section.text("separator") == "comma" ? ',' : ';');
+}
+
 }  // namespace
 
 void register_csv_report(Registry& registry) {
   registry.add<Report>(
       "csv", "series.csv: the plotted numbers, for other programs",
-      {choice("separator", {"comma", "semicolon"}, "comma").doc("Between the cells of a line")},
-      [](const Parameters& parameters, const Registry&) {
-        return std::make_unique<CsvReport>(parameters.text("separator") == "comma" ? ',' : ';');
-      });
+      {choice("separator", {"comma", "semicolon"}, "comma").doc("Between the cells of a line")}, make_csv);
 }
 
 }  // namespace pliant
