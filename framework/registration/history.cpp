@@ -10,12 +10,15 @@ void History::add(const Residual& residual, const std::shared_ptr<const Embedded
   const std::size_t iteration = steps_.size();
   steps_.push_back({residual.mean, residual.robust, residual.matched});
   const double enough = (1 - rule_.min_gain) * steps_.front().robust;
-  const auto keep_if_better = [&](State& best) {
-    const bool is_better = residual.robust < enough && residual.robust < steps_[best.iteration].robust;
-    if (iteration == 0 || is_better) best = {iteration, graph, unknowns.clone()};
+  const auto is_better_than = [&](const std::shared_ptr<const State>& best) {
+    return iteration == 0 || (residual.robust < enough && residual.robust < steps_[best->iteration].robust);
   };
-  keep_if_better(best_of_all_);
-  if (iteration == 0 || is_after_schedule(iteration)) keep_if_better(best_);
+  const bool is_best_of_all = is_better_than(best_of_all_);
+  const bool is_best = (iteration == 0 || is_after_schedule(iteration)) && is_better_than(best_);
+  if (!is_best && !is_best_of_all) return;
+  const auto here = std::make_shared<const State>(State{iteration, graph, unknowns.clone()});
+  if (is_best_of_all) best_of_all_ = here;
+  if (is_best) best_ = here;
 }
 
 bool History::is_stuck() const {

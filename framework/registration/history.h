@@ -38,7 +38,7 @@ class History {
 
   /// Settles what is best: nothing comes after this.
   void close();
-  const State& best() const { return best_; }
+  const State& best() const { return *best_; }
   std::vector<Step> take_steps() { return std::move(steps_); }
 
  private:
@@ -49,8 +49,8 @@ class History {
   const StoppingRule& rule_;
   const Schedule& schedule_;
   std::vector<Step> steps_;
-  State best_;         ///< of the alignment and the iterations after the schedule
-  State best_of_all_;  ///< of these and those of the schedule
+  std::shared_ptr<const State> best_;         ///< of the alignment and the iterations after the schedule
+  std::shared_ptr<const State> best_of_all_;  ///< of these and those of the schedule
 };
 
 }  // namespace pliant

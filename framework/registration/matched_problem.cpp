@@ -44,13 +44,21 @@ std::vector<Term> make_terms(Device& device, const NonRigidMethod& method, const
   return terms;
 }
 
+}  // namespace
+
+Constraints unmatched_at(Array<float> points) {
+  Constraints constraints;
+  constraints.data = Array<float>(2 * points.size());
+  constraints.confidence = Array<float>(points.size() / 3);
+  constraints.points = std::move(points);
+  return constraints;
+}
+
 Array<int> first_indices(std::size_t count) {
   std::vector<int> indices(count);
   std::iota(indices.begin(), indices.end(), 0);
   return Array<int>(std::move(indices));
 }
-
-}  // namespace
 
 bool applies(const NonRigidMethod& method, const Energy& energy) {
   return energy.weight > 0 && (!energy.uses_features() || uses_features(method));
@@ -63,10 +71,7 @@ MatchedConstraints make_constraints(Device& device, const NonRigidInput& input,
     throw DataError(fmt::format("{}: no constraint falls on the source; choose a finer one", input.name));
   Array<int> indices(points);
   PointSet rest = pick_points(device, input.rest, indices);
-  auto constraints = std::make_shared<Constraints>();
-  constraints->points = rest.points.clone();
-  constraints->data = Array<float>(6 * points.size());
-  constraints->confidence = Array<float>(points.size());
+  auto constraints = std::make_shared<Constraints>(unmatched_at(rest.points.clone()));
   return {points, follows_all ? std::move(indices) : first_indices(points.size()),
           Array<float>(selection.weights()), std::move(rest), std::move(constraints)};
 }

@@ -34,6 +34,12 @@ struct MatchedConstraints {
   std::shared_ptr<Constraints> constraints;
 };
 
+/// Constraints at some points (x y z each, mm) that matching will write; without influences.
+Constraints unmatched_at(Array<float> points);
+
+/// 0, 1, 2, ...
+Array<int> first_indices(std::size_t count);
+
 /// Whether an energy becomes a term of the problem: one that never counts would only be evaluated in vain.
 bool applies(const NonRigidMethod& method, const Energy& energy);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -289,14 +288,8 @@ class Loop {
   }
 
   std::vector<std::uint8_t> find_matched() {
-    const std::size_t count = input_.pixels.count;
-    Constraints constraints;
-    constraints.points = input_.rest.points.clone();
-    constraints.data = Array<float>(6 * count);
-    constraints.confidence = Array<float>(count);
-    std::vector<int> all(count);
-    std::iota(all.begin(), all.end(), 0);
-    method_.correspondence->match(device_, registered_, Array<int>(std::move(all)), input_.target,
+    Constraints constraints = unmatched_at(input_.rest.points.clone());
+    method_.correspondence->match(device_, registered_, first_indices(input_.pixels.count), input_.target,
                                   constraints);
     return flags(constraints.confidence, [](float confidence) { return confidence > 0; });
   }
