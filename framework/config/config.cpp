@@ -63,9 +63,10 @@ fs::path canonical_name(const fs::path& file) {
 /// Reads an experiment and, beneath it, the files that it extends.
 class FileLoader {
  public:
-  /// `overlay`, `source` and `errors` must outlive this.
-  FileLoader(const ConfigOverlay& overlay, const ConfigSource& source, ConfigErrors& errors)
-      : overlay_(overlay), source_(source), errors_(errors) {}
+  /// All of them must outlive this.
+  FileLoader(const ParameterTable& root, const ConfigOverlay& overlay, const ConfigSource& source,
+             ConfigErrors& errors)
+      : root_(root), overlay_(overlay), source_(source), errors_(errors) {}
 
   /// Empty when the file or one beneath it cannot be used; why is then among the errors.
   std::optional<ConfigNode> load(const fs::path& file) {
@@ -129,13 +130,50 @@ class FileLoader {
 
   /// `tree` laid over what it extends; `link` is what it was read from.
   std::optional<ConfigNode> extended(ConfigNode tree, Link link) {
-    const auto extends = tree.take("extends");
-    if (!extends) return tree;
     chain_.push_back(std::move(link));
-    auto base = load_base(*extends);
+    extend_overrides(tree);
+    const auto extends = tree.take("extends");
+    auto base = extends ? load_base(*extends) : std::nullopt;
     chain_.pop_back();
+    if (!extends) return tree;
     if (base) overlay_.lay_over(*base, tree, {});
     return base;
+  }
+
+  /// Lays the overrides of a file, also those of a sweep, over what they extend.
+  void extend_overrides(ConfigNode& tree) {
+    for (const auto& row : root_.rows()) {
+      if (row.type() != ParameterType::overrides) continue;
+      if (ConfigEntry* overrides = tree.find(row.name())) extend_each(overrides->value);
+      ConfigEntry* sweep = row.swept_by().empty() ? nullptr : tree.find(row.swept_by());
+      if (sweep == nullptr) continue;
+      for (auto& axis : sweep->value.entries) extend_each(axis.value);
+    }
+  }
+
+  void extend_each(ConfigNode& overrides) {
+    for (auto& part : overrides.entries) {
+      const auto extends = part.value.take("extends");
+      if (!extends) continue;
+      auto base = load_base(*extends);
+      if (!base || has_overrides(*base, *extends)) continue;
+      overlay_.lay_over(*base, part.value, {});
+      part.value = std::move(*base);
+    }
+  }
+
+  /// Whether an override extends an experiment that has some itself, which is told.
+  bool has_overrides(const ConfigNode& base, const ConfigEntry& extends) {
+    for (const auto& row : root_.rows()) {
+      if (row.type() != ParameterType::overrides) continue;
+      for (const std::string& key : {row.name(), row.swept_by()}) {
+        if (key.empty() || base.find(key) == nullptr) continue;
+        errors_.add(extends.mark, fmt::format("{} has {}; expected an experiment of one run",
+                                              in_quotes(extends.value.text), in_quotes(key)));
+        return true;
+      }
+    }
+    return false;
   }
 
   std::optional<ConfigNode> load_base(const ConfigEntry& extends) {
@@ -183,6 +221,7 @@ class FileLoader {
     return false;
   }
 
+  const ParameterTable& root_;
   const ConfigOverlay& overlay_;
   const ConfigSource& source_;
   ConfigErrors& errors_;
@@ -292,7 +331,7 @@ std::string Experiment::to_yaml() const {
 Experiment load_experiment(const ConfigSource& source, const ParameterTable& root, const Registry& registry) {
   ConfigErrors errors;
   const ConfigOverlay overlay(root, registry);
-  FileLoader loader(overlay, source, errors);
+  FileLoader loader(root, overlay, source, errors);
   auto tree = std::visit([&](const auto& from) { return loader.load(from); }, source.from);
   if (!tree) errors.throw_if_any();
   lay_sets_over(*tree, source.sets, loader.origins(), overlay, errors);

@@ -20,6 +20,8 @@ using Kind = ConfigNode::Kind;
 
 // Above any sweep that somebody waits for.
 constexpr std::size_t max_swept_overrides = 1000;
+constexpr const char* expected_swept =
+    "a list of values under a key like a.b.c, or partial experiments under names of their own";
 // Below what file systems allow.
 constexpr std::size_t max_name_length = 200;
 
@@ -27,7 +29,8 @@ using KeyPath = std::vector<std::string>;
 
 /// A key of a sweep with the values that it takes.
 struct SweptKey {
-  KeyPath path;
+  KeyPath path;  ///< of an axis its name
+  bool is_axis;  ///< whether its values are partial experiments
   ConfigMark mark;
   std::vector<ConfigNode> values;
   std::vector<std::string> value_names;
@@ -41,11 +44,11 @@ struct SweptKey {
   }
 };
 
-/// Letters of no folder's name become "_", and so does what parts a key from its value: by that the names of
-/// different overrides differ.
+/// Letters of no folder's name become "_", and so do those that part keys and values from each other: by that
+/// the names of different overrides differ.
 std::string name_part(std::string text) {
   for (char& letter : text)
-    if (letter == '=' || !is_of_folder_name(letter)) letter = '_';
+    if (letter == '=' || letter == ',' || !is_of_folder_name(letter)) letter = '_';
   return text;
 }
 
@@ -114,13 +117,14 @@ class Sweep {
  private:
   /// One list of values; empty where it is wrong.
   std::optional<SweptKey> read(const ConfigEntry& entry, const std::string& shown_key) const {
-    SweptKey key{split_keys(entry.key), entry.mark, entry.value.items, {}, ""};
+    if (entry.value.kind == Kind::map) return read_axis(entry, shown_key);
+    SweptKey key{split_keys(entry.key), false, entry.mark, entry.value.items, {}, ""};
     if (key.path.empty()) {
       errors_.add(entry.mark, shown_key + " leads to no key; expected one like a.b.c");
       return std::nullopt;
     }
     if (entry.value.kind != Kind::list) {
-      errors_.add_unexpected(entry, sweep_.key + "." + entry.key, "a list of values under a key like a.b.c");
+      errors_.add_unexpected(entry, sweep_.key + "." + entry.key, expected_swept);
       return std::nullopt;
     }
     if (key.values.empty()) {
@@ -136,13 +140,39 @@ class Sweep {
         return std::nullopt;
       }
       if (!known.insert(*name).second) {
-        errors_.add(value.mark, fmt::format("two values of {} are named {}; expected names that differ",
-                                            shown_key, in_quotes(*name)));
+        errors_.add(value.mark, same_name(shown_key, *name));
         return std::nullopt;
       }
       key.value_names.push_back(*name);
     }
     return key;
+  }
+
+  /// Named partial experiments.
+  std::optional<SweptKey> read_axis(const ConfigEntry& entry, const std::string& shown_key) const {
+    SweptKey axis{{entry.key}, true, entry.mark, {}, {}, ""};
+    if (entry.value.entries.empty())
+      errors_.add(entry.mark, shown_key + " is empty; expected partial experiments");
+    for (const auto& part : entry.value.entries) {
+      const std::string name = name_part(part.key);
+      if (!is_partial_experiment(part)) {
+        errors_.add_unexpected(part, sweep_.key + "." + entry.key + "." + part.key,
+                               "the keys of an experiment that differ");
+      } else if (std::find(axis.value_names.begin(), axis.value_names.end(), name) !=
+                 axis.value_names.end()) {
+        errors_.add(part.mark, same_name(shown_key, name));
+      } else {
+        axis.values.push_back(part.value);
+        axis.value_names.push_back(name);
+      }
+    }
+    if (axis.values.size() < std::max<std::size_t>(entry.value.entries.size(), 1)) return std::nullopt;
+    return axis;
+  }
+
+  static std::string same_name(const std::string& shown_key, const std::string& name) {
+    return fmt::format("two values of {} are named {}; expected names that differ", shown_key,
+                       in_quotes(name));
   }
 
   ConfigEntry find_overrides(const ConfigNode& experiment, const Parameter& row) const {
@@ -178,8 +208,8 @@ class Sweep {
         ConfigEntry next{entry.key + (entry.key.empty() ? "" : ",") + key.name + "=" + key.value_names[i],
                          entry.mark, entry.value};
         next.value.kind = Kind::map;
-        overlay_.lay_over(next.value, under_keys(key.path, key.mark, key.values[i]),
-                          {.fragments = true, .keep_places = false});
+        const ConfigNode value = key.is_axis ? key.values[i] : under_keys(key.path, key.mark, key.values[i]);
+        overlay_.lay_over(next.value, value, {.fragments = true, .keep_places = false});
         all.push_back(std::move(next));
       }
     }
@@ -206,6 +236,25 @@ class Sweep {
 bool is_of_folder_name(unsigned char letter) {
   constexpr std::string_view signs = "_-.+=,()[]@~! ";
   return letter >= 0x80 || std::isalnum(letter) != 0 || signs.find(static_cast<char>(letter)) != signs.npos;
+}
+
+std::vector<SweptValue> swept_values(const std::string& name) {
+  std::vector<SweptValue> values;
+  std::size_t begin = 0;
+  int depth = 0;
+  for (std::size_t i = 0; i <= name.size(); ++i) {
+    if (i < name.size() && name[i] == '[') ++depth;
+    if (i < name.size() && name[i] == ']') --depth;
+    if (i < name.size() && (name[i] != ',' || depth > 0)) continue;
+    const std::string part = name.substr(begin, i - begin);
+    const std::size_t equals = part.find('=');
+    if (equals == std::string::npos)
+      values.push_back({"", part});
+    else
+      values.push_back({part.substr(0, equals), part.substr(equals + 1)});
+    begin = i + 1;
+  }
+  return values;
 }
 
 void expand_sweeps(ConfigNode& experiment, const ParameterTable& root, const ConfigOverlay& overlay,

@@ -82,13 +82,16 @@ class SchemaWriter {
   static ordered_json sweep(const Parameter& row) {
     const ordered_json value = {
         {"anyOf", ordered_json::array({bare_text(), {{"type", "array"}, {"items", bare_text()}}})}};
+    const ordered_json list = {{"type", "array"}, {"items", value}, {"minItems", 1}, {"uniqueItems", true}};
+    const ordered_json axis = {
+        {"type", "object"}, {"additionalProperties", or_empty(reference("override"))}, {"minProperties", 1}};
     return {{"description",
-             "Lists of values under dotted keys, such as 'data.noise: [0, 1]'; each combination of "
-             "them becomes one of '" +
+             "Lists of values under dotted keys, such as 'data.noise: [0, 1]', or partial experiments under "
+             "names, such as 'method: {fine: {graph: {nodes: 400}}}'; each combination of them becomes one "
+             "of '" +
                  row.name() + "'"},
             {"type", "object"},
-            {"additionalProperties",
-             {{"type", "array"}, {"items", value}, {"minItems", 1}, {"uniqueItems", true}}}};
+            {"additionalProperties", {{"anyOf", ordered_json::array({list, axis})}}}};
   }
 
   ordered_json required_keys() const {
@@ -174,6 +177,8 @@ class SchemaWriter {
       for (const auto* info : registry_.components(kind)) all[kind + "." + info->name] = one_component(*info);
     }
     all["override"] = table(without_overrides(root_));
+    all["override"]["properties"]["extends"] = {
+        {"type", "string"}, {"description", "Another experiment file, of one run, that this is laid over"}};
     return all;
   }
 

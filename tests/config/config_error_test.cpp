@@ -374,7 +374,7 @@ TEST_F(ConfigErrorLine, OverridesMayNotHoldOverrides) {
                        "compare: {with: {d: {variants: {}}}}\n"),
       ElementsAre("exp.yaml:4:7: unknown key 'variants'" + expected,
                   "exp.yaml:5:7: unknown key 'compare'" + expected,
-                  "exp.yaml:6:7: unknown key 'extends'" + expected,
+                  "exp.yaml:6:16: cannot extend 'x.yaml': the file does not exist",
                   "exp.yaml:7:22: unknown key 'variants'" + expected));
 }
 

@@ -87,16 +87,18 @@ TEST_F(Schema, OverridesArePartialExperimentsWithoutOverrides) {
   EXPECT_TRUE(override_["properties"].contains("solver"));
   EXPECT_FALSE(override_["properties"].contains("variants"));
   EXPECT_FALSE(override_["properties"].contains("compare"));
-  EXPECT_FALSE(override_["properties"].contains("extends"));
+  EXPECT_TRUE(override_["properties"].contains("extends"));
   EXPECT_FALSE(override_.contains("required"));
 }
 
-TEST_F(Schema, SweepsAreListsUnderTheKeyThatTheTableNames) {
+TEST_F(Schema, SweepsAreListsOrNamedOverridesUnderTheKeyThatTheTableNames) {
   const ParameterTable table{overrides("variants").swept_by("sweep")};
   const ordered_json sweep = json_schema(table, registry_)["properties"]["sweep"];
   EXPECT_EQ(sweep["type"], "object");
-  EXPECT_EQ(sweep["additionalProperties"]["type"], "array");
-  EXPECT_EQ(sweep["additionalProperties"]["minItems"], 1);
+  const ordered_json& either = sweep["additionalProperties"]["anyOf"];
+  EXPECT_EQ(either[0]["type"], "array");
+  EXPECT_EQ(either[0]["minItems"], 1);
+  EXPECT_EQ(either[1]["additionalProperties"]["anyOf"][0]["$ref"], "#/$defs/override");
   EXPECT_THAT(sweep["description"], HasSubstr("becomes one of 'variants'"));
   EXPECT_FALSE(keys_.contains("sweep"));
 }

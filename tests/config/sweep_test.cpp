@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "framework/config/config_sweep.h"
 #include "tests/config/toy_experiment.h"
 
 namespace pliant::test {
@@ -61,8 +62,8 @@ TEST_F(Sweep, KeysAreNamedByTheShortestEndsThatDiffer) {
 
 TEST_F(Sweep, ValuesMayBeListsAndEveryNameFitsAFolder) {
   const auto made = variants("sweep: {metrics: [[], epe, [epe, a/b]], title: ['a=b,c']}\n");
-  EXPECT_THAT(names(made), ElementsAre("metrics=[],title=a_b,c", "metrics=epe,title=a_b,c",
-                                       "metrics=[epe,a_b],title=a_b,c"));
+  EXPECT_THAT(names(made), ElementsAre("metrics=[],title=a_b_c", "metrics=epe,title=a_b_c",
+                                       "metrics=[epe,a_b],title=a_b_c"));
   EXPECT_THAT(made[2].second.words("metrics"), ElementsAre("epe", "a/b"));
   EXPECT_EQ(made[2].second.text("title"), "a=b,c");
 }
@@ -104,11 +105,8 @@ TEST_F(Sweep, SweepsOfTheWrongShape) {
                   "key"));
   EXPECT_THAT(
       errors(minimal + "sweep: {title: a}\n"),
-      ElementsAre("exp.yaml:3:16: 'sweep.title' is 'a'; expected a list of values under a key like a.b.c"));
-  EXPECT_THAT(
-      errors(minimal + "sweep: {title: {a: 1}}\n"),
-      ElementsAre(
-          "exp.yaml:3:9: 'sweep.title' is a section; expected a list of values under a key like a.b.c"));
+      ElementsAre("exp.yaml:3:16: 'sweep.title' is 'a'; expected a list of values under a key like a.b.c, or "
+                  "partial experiments under names of their own"));
   EXPECT_THAT(errors(minimal + "sweep: {title: []}\n"),
               ElementsAre("exp.yaml:3:16: 'sweep.title' is an empty list; expected at least one value"));
   EXPECT_THAT(errors(minimal + "sweep: {stop..rounds: [1]}\n"),
@@ -182,6 +180,49 @@ TEST_F(Sweep, AnExperimentWithoutOneDoesNotKnowTheKey) {
 TEST_F(Sweep, IsAmongTheExpectedKeys) {
   EXPECT_THAT(errors(minimal + "swep: {}\n"),
               ElementsAre(HasSubstr("variants, compare, sweep, extends; did you mean 'sweep'?")));
+}
+
+TEST_F(Sweep, AxesArePartialExperimentsUnderNames) {
+  const auto made = variants("sweep:\n  kind:\n    short: {stop: {rounds: 1}}\n    none:\n  title: [x, y]\n");
+  EXPECT_THAT(names(made), ElementsAre("kind=short,title=x", "kind=short,title=y", "kind=none,title=x",
+                                       "kind=none,title=y"));
+  EXPECT_EQ(made[0].second.section("stop").integer("rounds"), 1);
+  EXPECT_EQ(made[1].second.text("title"), "y");
+}
+
+TEST_F(Sweep, WhatAnAxisNamesMayExtendAFile) {
+  write("parts/short.yaml", "stop: {rounds: 1, limit: 0.5}\n");
+  const auto made = variants("sweep: {kind: {short: {extends: parts/short.yaml, stop: {limit: 0.25}}}}\n");
+  EXPECT_EQ(made[0].second.section("stop").integer("rounds"), 1);
+  EXPECT_EQ(made[0].second.section("stop").real("limit"), 0.25);
+  const auto plain = variants("variants: {short: {extends: parts/short.yaml}}\n");
+  EXPECT_EQ(plain[0].second.section("stop").integer("rounds"), 1);
+}
+
+TEST_F(Sweep, WhatExtendsAFileOfSeveralRunsIsToldSo) {
+  write("many.yaml", "sweep: {title: [a, b]}\n");
+  EXPECT_THAT(errors(minimal + "sweep: {kind: {short: {extends: many.yaml}}}\n"),
+              ElementsAre("exp.yaml:3:24: 'many.yaml' has 'sweep'; expected an experiment of one run"));
+  EXPECT_THAT(errors(minimal + "variants: {short: {extends: exp.yaml}}\n"),
+              ElementsAre(HasSubstr("'extends' goes in a circle")));
+}
+
+TEST_F(Sweep, AnAxisThatIsNoneIsToldSo) {
+  EXPECT_THAT(errors(minimal + "sweep: {kind: {}}\n"), ElementsAre(HasSubstr("'sweep.kind' is empty")));
+  EXPECT_THAT(
+      errors(minimal + "sweep: {kind: {a: 3}}\n"),
+      ElementsAre(HasSubstr("'sweep.kind.a' is '3'; expected the keys of an experiment that differ")));
+  EXPECT_THAT(errors(minimal + "sweep: {kind: {'a=b': {}, a_b: {}}}\n"),
+              ElementsAre(HasSubstr("two values of 'sweep.kind' are named 'a_b'")));
+}
+
+TEST(SweptValues, AreReadFromTheName) {
+  const auto values = swept_values("coarse,kind=short,metrics=[epe,a],weight=0.5");
+  ASSERT_THAT(values, SizeIs(4));
+  EXPECT_EQ(values[0].name + ":" + values[0].value, ":coarse");
+  EXPECT_EQ(values[1].name + ":" + values[1].value, "kind:short");
+  EXPECT_EQ(values[2].name + ":" + values[2].value, "metrics:[epe,a]");
+  EXPECT_EQ(values[3].name + ":" + values[3].value, "weight:0.5");
 }
 
 }  // namespace
