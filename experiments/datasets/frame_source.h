@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "framework/device/device.h"
 #include "framework/evaluation/truth.h"
 #include "framework/geometry/frame_stream.h"
 
@@ -23,9 +24,10 @@ class FrameSource {
  public:
   static constexpr const char* kind = "data";
   virtual ~FrameSource() = default;
-  /// A stream from the first frame on; it may outlive the source. Every stream opened with one seed gives the
-  /// same bits. Throws DataError naming the file at fault.
-  virtual std::unique_ptr<DataStream> open(std::uint64_t seed) const = 0;
+  /// A stream from the first frame on; it may outlive the source but not the device, on which frames may be
+  /// rendered. Every stream opened with one seed on the same kind of device gives the same bits. Throws
+  /// DataError naming the file at fault.
+  virtual std::unique_ptr<DataStream> open(Device& device, std::uint64_t seed) const = 0;
 };
 
 }  // namespace pliant

@@ -169,7 +169,7 @@ std::string RenderedMesh::described_size() const {
       size.x(), size.y(), size.z(), settings_.mesh_scale);
 }
 
-std::unique_ptr<DataStream> RenderedMesh::open(std::uint64_t seed) const {
+std::unique_ptr<DataStream> RenderedMesh::open(Device& /*device*/, std::uint64_t seed) const {
   const Camera& camera = settings_.camera;
   const Eigen::Translation3d to_middle(0, 0, settings_.distance);
   const Points source = transformed(mesh_.deform(source_), placement());

@@ -41,7 +41,7 @@ class RenderedMesh : public FrameSource {
 
   /// The seed is that of the noise. Throws DataError, with the size of the mesh, when no pixel sees it or the
   /// camera is inside of it.
-  std::unique_ptr<DataStream> open(std::uint64_t seed) const override;
+  std::unique_ptr<DataStream> open(Device& device, std::uint64_t seed) const override;
 
  private:
   std::vector<double> weights_of(const std::string& key, const std::vector<std::string>& expression) const;

@@ -154,7 +154,7 @@ ParameterTable frame_table() {
 
 }  // namespace
 
-std::unique_ptr<DataStream> RgbdPair::open(std::uint64_t /*seed*/) const {
+std::unique_ptr<DataStream> RgbdPair::open(Device& /*device*/, std::uint64_t /*seed*/) const {
   StoredPair pair;
   const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
   pair.name = stem(settings_.source.depth) + " to " + stem(settings_.target.depth);

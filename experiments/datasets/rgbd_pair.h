@@ -35,7 +35,7 @@ class RgbdPair : public FrameSource {
   /// Gives depth images of one size, and colour images of one, with at least one point in the source and in
   /// the target, and with truth, where there is a file of it, for at least one point of the source. What is
   /// odd about depth or intrinsics is among the stream's warnings. The seed plays no part.
-  std::unique_ptr<DataStream> open(std::uint64_t seed) const override;
+  std::unique_ptr<DataStream> open(Device& device, std::uint64_t seed) const override;
 
  private:
   Settings settings_;

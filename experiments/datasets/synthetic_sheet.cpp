@@ -179,7 +179,7 @@ std::optional<double> BendingSheet::solve(double a) const {
   return s;
 }
 
-std::unique_ptr<DataStream> SyntheticSheet::open(std::uint64_t seed) const {
+std::unique_ptr<DataStream> SyntheticSheet::open(Device& /*device*/, std::uint64_t seed) const {
   return std::make_unique<SheetStream>(sheet_, settings_, seed);
 }
 

@@ -70,7 +70,7 @@ class SyntheticSheet : public FrameSource {
 
   /// The seed is that of the noise. A frame in which no pixel sees the sheet is a DataError. Frames are made
   /// when they are asked for.
-  std::unique_ptr<DataStream> open(std::uint64_t seed) const override;
+  std::unique_ptr<DataStream> open(Device& device, std::uint64_t seed) const override;
 
  private:
   BendingSheet sheet_;

@@ -44,6 +44,11 @@ std::string time_of_change(const std::filesystem::path& word) {
   return fmt::format("@{}", time.time_since_epoch().count());
 }
 
+/// The same text for experiments that ask for the same device.
+std::string device_key(const Parameters& experiment) {
+  return experiment.text("device") + " " + fingerprint(experiment.section("kernels"));
+}
+
 }  // namespace
 
 std::string fingerprint(const Parameters& section) {
@@ -71,10 +76,9 @@ std::string fingerprint(const Parameters& section) {
 }
 
 Device& Workbench::device(const Parameters& experiment) {
-  const std::string& name = experiment.text("device");
-  auto& device = devices_[name + " " + fingerprint(experiment.section("kernels"))];
+  auto& device = devices_[device_key(experiment)];
   if (device == nullptr) {
-    device = std::make_unique<Device>(name, device_options(experiment));
+    device = std::make_unique<Device>(experiment.text("device"), device_options(experiment));
     device->tell_of_building(tell_of_building_);
   }
   return *device;
@@ -83,10 +87,11 @@ Device& Workbench::device(const Parameters& experiment) {
 const Workbench::Data& Workbench::data(const Parameters& experiment) {
   const Parameters& section = experiment.section("data");
   const auto seed = experiment.integer("seed");
-  const std::string key = fmt::format("{} {}", seed, fingerprint(section));
+  const std::string key = fmt::format("{} {} {}", device_key(experiment), seed, fingerprint(section));
   const auto known = data_.find(key);
   if (known != data_.end()) return known->second;
-  const auto stream = registry_.make<FrameSource>(section)->open(static_cast<std::uint64_t>(seed));
+  const auto stream =
+      registry_.make<FrameSource>(section)->open(device(experiment), static_cast<std::uint64_t>(seed));
   Data data{read_pair(*stream), stream->truth(2)};
   if (data.truth) check(*data.truth, data.pair);
   return data_.emplace(key, std::move(data)).first->second;

@@ -33,7 +33,8 @@ class Workbench {
   const Registry& registry() const { return registry_; }
   /// Throws DeviceError when there is none that the experiment would take.
   Device& device(const Parameters& experiment);
-  /// The first two frames of the experiment's data. Throws DataError when they cannot be used.
+  /// The first two frames of the experiment's data, made on its device. Throws DataError when they cannot be
+  /// used, DeviceError as above.
   const FramePair& pair(const Parameters& experiment) { return data(experiment).pair; }
   /// What is known of that pair, for who measures.
   const std::optional<PairTruth>& truth(const Parameters& experiment) { return data(experiment).truth; }
@@ -48,7 +49,7 @@ class Workbench {
   const Registry& registry_;
   ProgressSink tell_of_building_;
   std::map<std::string, std::unique_ptr<Device>> devices_;  // by what was asked for
-  std::map<std::string, Data> data_;                        // by data section and seed
+  std::map<std::string, Data> data_;                        // by device, data section and seed
 };
 
 /// Does the work of a run. What a registration finds wrong is told with the place it came from, because the

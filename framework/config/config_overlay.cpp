@@ -63,6 +63,7 @@ void ConfigOverlay::lay_over(ConfigEntry& base, const ConfigEntry& overlay, cons
       return lay_over_component(base, overlay, row == nullptr ? "" : row->kind(),
                                 row == nullptr ? std::nullopt : row->default_text(), mode);
     case ParameterType::components:
+    case ParameterType::groups:
     case ParameterType::overrides:
       if (!are_maps(base, overlay)) break;
       lay_over_labels(base.value, overlay.value, *row, mode);
@@ -89,6 +90,9 @@ void ConfigOverlay::lay_over_labels(ConfigNode& base, const ConfigNode& overlay,
       beneath->value = as_labelled_section(beneath->value);
       const ConfigEntry section{entry.key, entry.mark, as_labelled_section(entry.value)};
       lay_over_component(*beneath, section, row.kind(), entry.key, mode);
+    } else if (are_maps(*beneath, entry) && row.type() == ParameterType::groups) {
+      lay_over(beneath->value, entry.value, &row.table(), mode);
+      if (!mode.keep_places) beneath->mark = entry.mark;
     } else if (are_maps(*beneath, entry)) {
       lay_over(beneath->value, entry.value, &root_, {.fragments = true, .keep_places = mode.keep_places});
     } else if (entry.value.kind != Kind::null) {

@@ -34,6 +34,10 @@ Parameters::Value typed_value(const std::string& name, const ordered_json& scala
   return {name, scalar.get<std::string>()};
 }
 
+std::string expected_section(const ParameterTable& table) {
+  return fmt::format("a section with keys of {}", fmt::join(names_of(table), ", "));
+}
+
 bool takes_quotes(ParameterType type) { return type == ParameterType::text || type == ParameterType::choice; }
 
 }  // namespace
@@ -83,7 +87,8 @@ void ConfigResolver::report_unknown_keys(const ConfigNode& node, const Parameter
 
 ConfigResolver::MaybeResolved ConfigResolver::absent(const Parameter& row, const Place& place) {
   const ParameterType type = row.type();
-  const bool is_list = type == ParameterType::components || type == ParameterType::words;
+  const bool is_list =
+      type == ParameterType::components || type == ParameterType::groups || type == ParameterType::words;
   if (type == ParameterType::overrides || (is_list && row.is_optional())) {
     if (type == ParameterType::words)
       return Resolved{{row.name(), std::vector<std::string>{}}, ordered_json::array()};
@@ -124,6 +129,8 @@ ConfigResolver::MaybeResolved ConfigResolver::given(const Parameter& row, const 
       return reals(row, entry, place);
     case ParameterType::components:
       return components(row, entry, place);
+    case ParameterType::groups:
+      return groups(row, entry, place);
     case ParameterType::overrides:
       return runs(row, entry);
     case ParameterType::group:
@@ -240,16 +247,7 @@ ConfigResolver::MaybeResolved ConfigResolver::reals(const Parameter& row, const 
 
 ConfigResolver::MaybeResolved ConfigResolver::components(const Parameter& row, const ConfigEntry& entry,
                                                          const Place& place) {
-  if (entry.value.kind != Kind::map) {
-    report(row, entry, place);
-    return {};
-  }
-  if (row.lowest() && static_cast<double>(entry.value.entries.size()) < *row.lowest()) {
-    errors_.add(entry.mark,
-                fmt::format("{} has {} entries; expected at least {}", in_quotes(place.key(row.name())),
-                            entry.value.entries.size(), *row.lowest()));
-    return {};
-  }
+  if (!is_map_of_enough(row, entry, place)) return {};
   Parameters::Sections sections;
   ordered_json tree = ordered_json::object();
   for (const auto& labelled : entry.value.entries) {
@@ -260,6 +258,37 @@ ConfigResolver::MaybeResolved ConfigResolver::components(const Parameter& row, c
     tree[labelled.key] = std::move(resolved->tree);
   }
   return Resolved{{row.name(), std::move(sections)}, std::move(tree)};
+}
+
+ConfigResolver::MaybeResolved ConfigResolver::groups(const Parameter& row, const ConfigEntry& entry,
+                                                     const Place& place) {
+  if (!is_map_of_enough(row, entry, place)) return {};
+  Parameters::Sections sections;
+  ordered_json tree = ordered_json::object();
+  for (const auto& labelled : entry.value.entries) {
+    const Place below{place.key(row.name()) + "." + labelled.key, labelled.mark};
+    if (labelled.value.kind != Kind::map && labelled.value.kind != Kind::null) {
+      errors_.add_unexpected(labelled, below.path, expected_section(row.table()));
+      continue;
+    }
+    auto resolved = section(&labelled.value, row.table(), below, "", {});
+    sections.emplace_back(labelled.key, std::move(resolved.values));
+    tree[labelled.key] = std::move(resolved.tree);
+  }
+  return Resolved{{row.name(), std::move(sections)}, std::move(tree)};
+}
+
+/// Reports what is no map, and a map of too few entries.
+bool ConfigResolver::is_map_of_enough(const Parameter& row, const ConfigEntry& entry, const Place& place) {
+  const std::size_t count = entry.value.entries.size();
+  if (entry.value.kind != Kind::map)
+    report(row, entry, place);
+  else if (row.lowest() && static_cast<double>(count) < *row.lowest())
+    errors_.add(entry.mark, fmt::format("{} has {} entries; expected at least {}",
+                                        in_quotes(place.key(row.name())), count, *row.lowest()));
+  else
+    return true;
+  return false;
 }
 
 ConfigResolver::MaybeResolved ConfigResolver::runs(const Parameter& row, const ConfigEntry& entry) {
@@ -337,7 +366,9 @@ std::string ConfigResolver::expected(const Parameter& row) const {
     case ParameterType::components:
       return "a section of labels, each for " + expected_component(row.kind());
     case ParameterType::group:
-      return fmt::format("a section with keys of {}", fmt::join(names_of(row.table()), ", "));
+      return expected_section(row.table());
+    case ParameterType::groups:
+      return "a map from names, each to " + expected_section(row.table());
     case ParameterType::overrides:
       return expected_overrides;
     case ParameterType::words:

@@ -58,6 +58,8 @@ class ConfigResolver {
   MaybeResolved words(const Parameter& row, const ConfigEntry& entry, const Place& place);
   MaybeResolved reals(const Parameter& row, const ConfigEntry& entry, const Place& place);
   MaybeResolved components(const Parameter& row, const ConfigEntry& entry, const Place& place);
+  MaybeResolved groups(const Parameter& row, const ConfigEntry& entry, const Place& place);
+  bool is_map_of_enough(const Parameter& row, const ConfigEntry& entry, const Place& place);
   MaybeResolved runs(const Parameter& row, const ConfigEntry& entry);
   std::optional<ResolvedSection> component(const std::string& kind, const ConfigNode& node,
                                            const Place& place, const std::optional<std::string>& implied);

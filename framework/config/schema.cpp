@@ -28,7 +28,8 @@ ordered_json reference(const std::string& definition) { return {{"$ref", "#/$def
 
 bool is_section(const Parameter& row) {
   return row.type() == ParameterType::group || row.type() == ParameterType::component ||
-         row.type() == ParameterType::components || row.type() == ParameterType::overrides;
+         row.type() == ParameterType::components || row.type() == ParameterType::groups ||
+         row.type() == ParameterType::overrides;
 }
 
 std::string default_shown(const Parameter& row) {
@@ -118,7 +119,8 @@ class SchemaWriter {
   }
 
   static const char* lowest_key(const Parameter& row) {
-    if (row.type() == ParameterType::components) return "minProperties";
+    if (row.type() == ParameterType::components || row.type() == ParameterType::groups)
+      return "minProperties";
     return row.lowest_excluded() ? "exclusiveMinimum" : "minimum";
   }
 
@@ -136,6 +138,8 @@ class SchemaWriter {
         return table(row.table());
       case ParameterType::components:
         return labelled_components(row.kind());
+      case ParameterType::groups:
+        return {{"type", "object"}, {"additionalProperties", or_empty(table(row.table()))}};
       case ParameterType::overrides:
         return {{"type", "object"}, {"additionalProperties", or_empty(reference("override"))}};
       case ParameterType::words:
@@ -194,7 +198,8 @@ class SchemaWriter {
 
   static void add_kinds(const ParameterTable& table, std::vector<std::string>& kinds) {
     for (const auto& row : table.rows()) {
-      if (row.type() == ParameterType::group) add_kinds(row.table(), kinds);
+      if (row.type() == ParameterType::group || row.type() == ParameterType::groups)
+        add_kinds(row.table(), kinds);
       if (!row.kind().empty() && std::find(kinds.begin(), kinds.end(), row.kind()) == kinds.end())
         kinds.push_back(row.kind());
     }
@@ -256,6 +261,8 @@ std::string type_shown(const Parameter& row) {
       return "map of " + row.kind();
     case ParameterType::group:
       return "section";
+    case ParameterType::groups:
+      return "map of sections";
     case ParameterType::overrides:
       return "overrides";
     case ParameterType::words:
@@ -276,6 +283,7 @@ void add_lines(const ParameterTable& table, const std::string& prefix, std::vect
     const std::string name = prefix + row.name();
     lines.push_back({name, type_shown(row), row.unit(), default_shown(row), range_shown(row), row.doc()});
     if (row.type() == ParameterType::group) add_lines(row.table(), name + ".", lines);
+    if (row.type() == ParameterType::groups) add_lines(row.table(), name + ".NAME.", lines);
   }
 }
 

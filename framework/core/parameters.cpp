@@ -110,6 +110,14 @@ Parameter group(std::string name, ParameterTable table) {
   return row;
 }
 
+Parameter groups(std::string name, ParameterTable table) {
+  if (std::any_of(table.rows().begin(), table.rows().end(), holds_overrides))
+    throw std::logic_error("the entries of '" + name + "' hold overrides");
+  Parameter row(std::move(name), ParameterType::groups);
+  row.table_ = std::make_shared<const ParameterTable>(std::move(table));
+  return row;
+}
+
 Parameter overrides(std::string name) {
   Parameter row(std::move(name), ParameterType::overrides);
   row.default_ = "";

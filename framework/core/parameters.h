@@ -24,6 +24,7 @@ enum class ParameterType {
   component,   ///< a section that names a registered component by its key `type`
   components,  ///< a map from component name to its section (the energies of a problem)
   group,       ///< a section with a fixed table of its own
+  groups,      ///< a map from a name to such a section
   overrides,   ///< a map from a name to a partial experiment that is laid over the whole
   words,       ///< a list of texts
   reals,       ///< a list of so many finite numbers
@@ -39,9 +40,9 @@ class Parameter {
   Parameter&& unit(std::string unit) &&;
   Parameter&& doc(std::string doc) &&;
   Parameter&& range(double lowest, double highest) &&;  ///< both ends allowed
-  Parameter&& at_least(double lowest) &&;               ///< of a `components` parameter: so many entries
-  Parameter&& above(double lowest) &&;                  ///< the end itself is not allowed
-  Parameter&& optional() &&;                            ///< may be absent, and has no default
+  Parameter&& at_least(double lowest) &&;  ///< of a `components` or `groups` parameter: so many entries
+  Parameter&& above(double lowest) &&;     ///< the end itself is not allowed
+  Parameter&& optional() &&;               ///< may be absent, and has no default
   /// Of an `overrides` parameter of the experiment itself: the key beside it under which a file may give
   /// lists of values instead, whose combinations become overrides.
   Parameter&& swept_by(std::string key) &&;
@@ -61,7 +62,7 @@ class Parameter {
   const std::string& kind() const { return kind_; }
   /// How many numbers a `reals` parameter takes.
   std::size_t size() const { return size_; }
-  /// The table of a `group`.
+  /// The table of a `group`, or of each entry of `groups`.
   const ParameterTable& table() const { return *table_; }
   /// The default as it would stand in the file ("" for sections; absent when the key is required).
   const std::optional<std::string>& default_text() const { return default_; }
@@ -77,6 +78,7 @@ class Parameter {
   friend Parameter component(std::string name, std::string kind, std::optional<std::string> fallback);
   friend Parameter components(std::string name, std::string kind);
   friend Parameter group(std::string name, ParameterTable table);
+  friend Parameter groups(std::string name, ParameterTable table);
   friend Parameter overrides(std::string name);
   friend Parameter words(std::string name);
   friend Parameter reals(std::string name, std::size_t size, std::optional<std::vector<double>> fallback);
@@ -88,7 +90,7 @@ class Parameter {
   std::string kind_;
   std::string swept_by_;
   std::vector<std::string> choices_;
-  std::shared_ptr<const ParameterTable> table_;  // of a group; shared because the type is incomplete here
+  std::shared_ptr<const ParameterTable> table_;  // of group(s); shared because the type is incomplete here
   std::optional<std::string> default_;
   std::optional<double> lowest_;
   std::optional<double> highest_;
@@ -121,6 +123,8 @@ Parameter path(std::string name);
 Parameter component(std::string name, std::string kind, std::optional<std::string> fallback = std::nullopt);
 Parameter components(std::string name, std::string kind);
 Parameter group(std::string name, ParameterTable table);
+/// Its table may hold no overrides (std::logic_error).
+Parameter groups(std::string name, ParameterTable table);
 Parameter overrides(std::string name);
 Parameter words(std::string name);
 Parameter reals(std::string name, std::size_t size,
@@ -147,7 +151,7 @@ class Parameters {
   const std::vector<double>& reals(const std::string& name) const;
   /// A component or group section.
   const Parameters& section(const std::string& name) const;
-  /// The entries of a `components` or `overrides` parameter in file order.
+  /// The entries of a `components`, `groups` or `overrides` parameter in file order.
   const std::vector<std::pair<std::string, Parameters>>& sections(const std::string& name) const;
 
   using Sections = std::vector<std::pair<std::string, Parameters>>;

@@ -21,10 +21,11 @@ class ApproachingWall : public testing::Test {
     if (file == nullptr) throw std::runtime_error("PLIANT_FRAMES_EXAMPLE is not set");
     const auto experiment =
         load_experiment({file, {}, {}}, {component("data", FrameSource::kind)}, registry_);
-    return registry_.make<FrameSource>(experiment.values.section("data"))->open(1);
+    return registry_.make<FrameSource>(experiment.values.section("data"))->open(device_, 1);
   }
 
   Registry registry_;
+  Device device_;
 };
 
 TEST_F(ApproachingWall, IsListed) {

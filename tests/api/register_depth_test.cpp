@@ -28,7 +28,8 @@ std::span<const std::uint8_t> bytes_of(const Image<T>& image) {
 class RegisterDepth : public testing::Test {
  protected:
   RegisterDepth() {
-    const auto stream = SyntheticSheet(BendingSheet({}), {kCamera}).open(1);
+    Device device;
+    const auto stream = SyntheticSheet(BendingSheet({}), {kCamera}).open(device, 1);
     pair_ = read_pair(*stream);
     truth_ = stream->truth(2).value().scene_flow;
   }

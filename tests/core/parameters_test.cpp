@@ -47,8 +47,15 @@ TEST(Parameter, WithoutDefaultTheKeyIsRequired) {
   EXPECT_EQ(boolean("a").default_text(), std::nullopt);
   EXPECT_EQ(path("a").default_text(), std::nullopt);
   EXPECT_EQ(components("a", "energy").default_text(), std::nullopt);
+  EXPECT_EQ(groups("a", {}).default_text(), std::nullopt);
   EXPECT_EQ(words("a").default_text(), std::nullopt);
   EXPECT_TRUE(static_cast<const Parameter&>(path("a").optional()).is_optional());
+}
+
+TEST(Parameter, EntriesOfGroupsHoldNoOverrides) {
+  EXPECT_EQ(groups("a", {integer("b", 1)}).table().rows().size(), 1U);
+  EXPECT_THROW(groups("a", {overrides("runs")}), std::logic_error);
+  EXPECT_THROW(groups("a", {group("b", {overrides("runs")})}), std::logic_error);
 }
 
 TEST(ParameterTable, FindsRowsByName) {

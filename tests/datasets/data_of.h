@@ -10,6 +10,9 @@ namespace pliant::testing {
 /// The frame source that a section of an experiment file describes, e.g. "{type: synthetic_sheet, noise: 1}".
 std::unique_ptr<FrameSource> data_of(const std::string& section);
 
+/// The device that the tests of a program share.
+Device& test_device();
+
 /// The first two frames of a source and what is known of them.
 struct LoadedPair : FramePair {
   std::optional<PairTruth> truth;

@@ -18,7 +18,7 @@ class StreamTest : public ExperimentFiles {
   void register_all(const std::vector<std::string>& sets, Look look) {
     const Parameters values = plan("", sets).runs[0].values;
     const Method method = make_method(values, registry_);
-    const auto stream = registry_.make<FrameSource>(values.section("data"))->open(1);
+    const auto stream = registry_.make<FrameSource>(values.section("data"))->open(device_, 1);
     CheckedStream frames(*stream);
     FramePair pair{stream->name(), stream->rig().depth, frames.require("the source"), {}};
     int number = 0;

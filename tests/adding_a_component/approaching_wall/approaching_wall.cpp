@@ -49,7 +49,7 @@ class WallStream : public DataStream {
 class ApproachingWall : public FrameSource {
  public:
   explicit ApproachingWall(const Wall& wall) : wall_(wall) {}
-  std::unique_ptr<DataStream> open(std::uint64_t /*seed*/) const override {
+  std::unique_ptr<DataStream> open(Device& /*device*/, std::uint64_t /*seed*/) const override {
     return std::make_unique<WallStream>(wall_);
   }
 
