@@ -6,6 +6,7 @@
 
 #include "experiments/datasets/frame_source.h"
 #include "experiments/report/report.h"
+#include "experiments/study/study_section.h"
 #include "framework/config/config_reader.h"
 #include "framework/config/config_sweep.h"
 #include "framework/core/error.h"
@@ -55,13 +56,23 @@ void check_run_names(const Parameters::Sections& runs) {
   if (!problems.empty()) throw ConfigError(problems);
 }
 
+/// Whether a run is one of those that an entry of `quick` means: it has all of its parts, in any order.
+bool is_meant(const std::string& entry, const std::string& run) {
+  const std::vector<SweptValue> parts = swept_values(run);
+  const std::vector<SweptValue> wanted = swept_values(entry);
+  return std::all_of(wanted.begin(), wanted.end(), [&](const SweptValue& value) {
+    return std::find(parts.begin(), parts.end(), value) != parts.end();
+  });
+}
+
 void check_quick(const ExperimentPlan& plan, const std::string& file) {
   std::vector<std::string> names;
   for (const auto& run : plan.runs) names.push_back(run.name);
-  for (const auto& name : plan.experiment.values.words("quick")) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    throw ConfigError(fmt::format("{}: 'quick' lists '{}', which is no run; expected {}{}", file, name,
-                                  fmt::join(names, ", "), suggestion(name, names)));
+  for (const auto& entry : plan.experiment.values.words("quick")) {
+    if (std::any_of(names.begin(), names.end(), [&](const auto& name) { return is_meant(entry, name); }))
+      continue;
+    throw ConfigError(fmt::format("{}: 'quick' lists '{}', which is no run; expected {}{}", file, entry,
+                                  fmt::join(names, ", "), suggestion(entry, names)));
   }
 }
 
@@ -107,15 +118,37 @@ ParameterTable experiment_table() {
                      .optional()
                      .doc("what `pliant compare` lets solve the first problem of each run"));
   rows.push_back(group("compare", compare_table()).doc("how `pliant compare` measures"));
-  rows.push_back(words("quick").optional().doc("runs that `pliant reproduce --quick` makes; all by default"));
+  rows.push_back(
+      integer("repeat", 0)
+          .range(0, 1000)
+          .doc("times so many runs after one that is not timed, and tells the median; `--repeat` wins"));
+  rows.push_back(
+      words("quick").optional().doc("runs that `pliant reproduce --quick` makes, by their names or parts of "
+                                    "them, as in set=1,seed=1; all by "
+                                    "default"));
+  rows.push_back(group("study", study_table()).doc("how the runs are shown together"));
   return ParameterTable(std::move(rows));
+}
+
+std::vector<RunRow> study_rows(const ExperimentPlan& plan, const std::vector<RunSummary>& runs) {
+  const auto json_of = [&](const std::string& name) {
+    const auto found =
+        std::find_if(runs.begin(), runs.end(), [&](const RunSummary& run) { return run.name == name; });
+    return found == runs.end() ? nlohmann::ordered_json::object() : found->json;
+  };
+  std::vector<RunRow> rows;
+  for (const auto& [name, values] : plan.experiment.values.sections("runs"))
+    rows.push_back(make_run_row(name, json_of(name)));
+  if (rows.empty()) rows.push_back(make_run_row(plan.name, json_of(plan.name)));
+  return rows;
 }
 
 void ExperimentPlan::keep_quick_runs() {
   const auto& quick = experiment.values.words("quick");
   if (quick.empty()) return;
   std::erase_if(runs, [&](const ExperimentRun& run) {
-    return std::find(quick.begin(), quick.end(), run.name) == quick.end();
+    return std::none_of(quick.begin(), quick.end(),
+                        [&](const auto& entry) { return is_meant(entry, run.name); });
   });
 }
 
@@ -131,6 +164,7 @@ ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& regis
   if (plan.runs.empty()) plan.runs.push_back({plan.name, plan.experiment.values, file});
   for (const auto& run : plan.runs) device_options(run.values);
   check_quick(plan, file);
+  make_study(plan.experiment.values.section("study"), study_rows(plan, {}));
   check_handles(plan);
   return plan;
 }

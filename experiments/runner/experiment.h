@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/run_row.h"
 #include "experiments/tasks/task.h"
 #include "framework/config/config.h"
 
@@ -28,6 +29,10 @@ struct ExperimentPlan {
   /// Leaves out the runs that `quick` does not list, where it lists any.
   void keep_quick_runs();
 };
+
+/// A row for each run that the experiment asks for, also for those that are not to be made; without numbers
+/// where it is none of `runs`.
+std::vector<RunRow> study_rows(const ExperimentPlan& plan, const std::vector<RunSummary>& runs);
 
 /// Reads an experiment (see load_experiment). Throws ConfigError with every error of the file, also for
 /// names that cannot name a folder.

@@ -19,11 +19,13 @@ using nlohmann::ordered_json;
 
 constexpr const char* file_name = "run.json";
 
-/// The experiment of a run without what it shares with the others and without what it is called.
+/// The experiment of a run without what it shares with the others, what it is called and how it is shown with
+/// them.
 Parameters what_counts(const Parameters& experiment) {
   std::vector<Parameters::Value> values = experiment.values();
   std::erase_if(values, [](const auto& value) {
-    return value.name == "name" || value.name == "runs" || value.name == "quick";
+    return value.name == "name" || value.name == "runs" || value.name == "quick" || value.name == "study" ||
+           value.name == "repeat";
   });
   return {experiment.component(), std::move(values)};
 }

@@ -61,7 +61,12 @@ class Runs {
 
  private:
   std::string key(const ExperimentRun& run) const {
-    return run_key(task_, run, workbench_.device(run.values).info(), repeats_);
+    return run_key(task_, run, workbench_.device(run.values).info(), repeats(run));
+  }
+
+  /// How often a run is timed: as the caller says, else as its experiment does.
+  int repeats(const ExperimentRun& run) const {
+    return repeats_ > 0 ? repeats_ : static_cast<int>(run.values.integer("repeat"));
   }
 
   /// Whether the result in a folder lacks runs that failed.
@@ -101,7 +106,7 @@ class Runs {
     };
     std::optional<RunArtefacts> made;
     try {
-      made = task_.make(run, workbench_, under_name(progress_, run.name), repeats_);
+      made = task_.make(run, workbench_, under_name(progress_, run.name), repeats(run));
     } catch (const Error& error) {
       return failed(error);
     }

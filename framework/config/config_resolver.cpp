@@ -52,7 +52,13 @@ ConfigResolver::ConfigResolver(const ParameterTable& root, const Registry& regis
 
 ResolvedSection ConfigResolver::experiment(const ConfigNode& tree,
                                            const std::vector<std::string>& other_keys) {
-  return section(&tree, root_, {"", tree.mark}, "", other_keys);
+  const auto gives_overrides = [&](const Parameter& row) {
+    const ConfigEntry* entry = row.type() == ParameterType::overrides ? tree.find(row.name()) : nullptr;
+    return entry != nullptr && !entry->value.entries.empty();
+  };
+  const auto& rows = root_.rows();
+  const bool is_base_only = std::any_of(rows.begin(), rows.end(), gives_overrides);
+  return section(&tree, root_, {"", tree.mark, is_base_only}, "", other_keys);
 }
 
 ResolvedSection ConfigResolver::section(const ConfigNode* node, const ParameterTable& table,
@@ -97,6 +103,7 @@ ConfigResolver::MaybeResolved ConfigResolver::absent(const Parameter& row, const
                     row.lowest() ? ordered_json() : ordered_json::object()};
   }
   if (row.is_optional()) return {};
+  if (!row.default_text() && place.is_base_only) return {};
   if (!row.default_text()) {
     errors_.add(place.mark,
                 fmt::format("missing key {}; expected {}", in_quotes(place.key(row.name())), expected(row)));

@@ -44,6 +44,8 @@ class ConfigResolver {
   struct Place {
     std::string path;  ///< dotted name of the section, empty for the experiment
     ConfigMark mark;   ///< where the section is named
+    /// Of an experiment that has overrides: what it lacks each of them must give.
+    bool is_base_only = false;
     std::string key(const std::string& name) const { return path.empty() ? name : path + "." + name; }
   };
 

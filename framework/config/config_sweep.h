@@ -28,6 +28,7 @@ void expand_sweeps(ConfigNode& experiment, const ParameterTable& root, const Con
 struct SweptValue {
   std::string name;  ///< of the key or axis; empty for the override that was swept
   std::string value;
+  bool operator==(const SweptValue&) const = default;
 };
 
 /// What the name of a swept override tells, in its order.

@@ -63,8 +63,14 @@ class SchemaWriter {
     schema["properties"]["extends"] = {
         {"type", "string"},
         {"description", "Another experiment file that this one is laid over, absolute or relative to it"}};
-    // What a file leaves out may stand in the one that it extends.
-    schema["if"] = {{"required", {"extends"}}};
+    // What a file leaves out may stand in the one that it extends, or in each of its overrides.
+    ordered_json elsewhere = ordered_json::array({{{"required", {"extends"}}}});
+    for (const auto& row : root_.rows()) {
+      if (row.type() != ParameterType::overrides) continue;
+      elsewhere.push_back({{"required", {row.name()}}});
+      if (!row.swept_by().empty()) elsewhere.push_back({{"required", {row.swept_by()}}});
+    }
+    schema["if"] = {{"anyOf", elsewhere}};
     schema["else"] = {{"required", required_keys()}};
     schema["$defs"] = definitions();
     return schema;

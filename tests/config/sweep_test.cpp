@@ -199,6 +199,13 @@ TEST_F(Sweep, WhatAnAxisNamesMayExtendAFile) {
   EXPECT_EQ(plain[0].second.section("stop").integer("rounds"), 1);
 }
 
+TEST_F(Sweep, WhatTheExperimentLacksItsOverridesMayGive) {
+  const std::string parts = "sweep: {kind: {a: {data: sheet, energies: {rotation: }}, b: {data: sheet}}}\n";
+  EXPECT_THAT(errors(parts), ElementsAre(HasSubstr("missing key 'energies'")));
+  const auto made = load("energies: {rotation: {}}\n" + parts).values.sections("variants");
+  EXPECT_EQ(made[1].second.section("data").component(), "sheet");
+}
+
 TEST_F(Sweep, WhatExtendsAFileOfSeveralRunsIsToldSo) {
   write("many.yaml", "sweep: {title: [a, b]}\n");
   EXPECT_THAT(errors(minimal + "sweep: {kind: {short: {extends: many.yaml}}}\n"),

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/study/sample.h"
+#include "framework/core/parameters.h"
+
+namespace pliant {
+
+/// A number of runs as a section of an experiment file asks for it.
+class Measure {
+ public:
+  /// The keys that every section has in which a number is asked for: `value` and `where`.
+  static std::vector<Parameter> rows();
+
+  /// `section` has a table with these keys. Throws ConfigError as Expression and RowFilter do.
+  Measure(const Parameters& section, const std::vector<RunRow>& rows);
+
+  /// Of those rows that meet these conditions, too.
+  Sample sample(const std::vector<std::string>& conditions) const;
+  /// Which of its names no run has, with the nearest that there is; empty where each is there, or no run has
+  /// any number.
+  std::string missing() const;
+
+ private:
+  std::string place_;
+  const std::vector<RunRow>& rows_;
+  Expression expression_;
+  std::vector<std::string> where_;
+};
+
+/// "AXIS=VALUE"
+std::string condition(const std::string& axis, const std::string& value);
+
+}  // namespace pliant

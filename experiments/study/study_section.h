@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "experiments/report/study.h"
+#include "experiments/study/run_row.h"
+#include "framework/core/parameters.h"
+
+namespace pliant {
+
+/// What an experiment file may say in `study` of how its runs are shown together (experiments/README.md):
+/// charts, tables, claims and views.
+ParameterTable study_table();
+
+/// The charts, tables, findings and views that a `study` section asks for, and notes of what no run has. Rows
+/// without numbers do to find out whether it can be made. Throws ConfigError for what is no formula, and for
+/// axes and values that no run has.
+Study make_study(const Parameters& section, const std::vector<RunRow>& rows);
+
+/// All numbers of all runs, a row a run: its name, its values on the axes, then every number that a run has.
+Table all_numbers(const std::vector<RunRow>& rows);
+
+}  // namespace pliant
