@@ -5,20 +5,13 @@
 #include <algorithm>
 #include <memory>
 
+#include "experiments/report/chart_html.h"
 #include "experiments/report/html.h"
-#include "experiments/report/plot.h"
 #include "experiments/report/reports.h"
 #include "framework/io/file.h"
 
 namespace pliant {
 namespace {
-
-std::string notes_list(const std::vector<std::string>& notes) {
-  if (notes.empty()) return "";
-  std::string items;
-  for (const std::string& note : notes) items += "<li>" + html_escape(note) + "</li>\n";
-  return html_section("Notes", "<ul>\n" + items + "</ul>\n");
-}
 
 /// Tables with a header, or those without, which need less room.
 std::string tables_html(const std::vector<Table>& tables, bool with_header) {
@@ -28,10 +21,18 @@ std::string tables_html(const std::vector<Table>& tables, bool with_header) {
   return html;
 }
 
-std::string plot_html(const Series& series) {
-  const std::string plot = log_plot_svg(series.values, series.step, series.value + " (log scale)");
-  return html_section(html_escape(series.title),
-                      plot + "<p class=\"quiet\">" + html_escape(series.note) + "</p>\n");
+std::string series_html(const Series& series) {
+  Chart::Series values{series.value, {}};
+  for (std::size_t i = 0; i < series.values.size(); ++i)
+    values.points.push_back({static_cast<double>(i), "", series.values[i]});
+  Chart chart;
+  chart.title = series.title;
+  chart.text = series.note;
+  chart.x_label = series.step;
+  chart.y_label = series.value + " (log scale)";
+  chart.log_y = true;
+  chart.series.push_back(std::move(values));
+  return chart_html(chart);
 }
 
 std::string picture_grid(const std::vector<Picture>& pictures) {
@@ -73,11 +74,11 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 
 std::string make_page(const RunArtefacts& run) {
   std::string columns;
-  for (const Series& series : run.series) columns += plot_html(series);
+  for (const Series& series : run.series) columns += series_html(series);
   columns += tables_html(run.tables, false);
-  return html_page(run.name, run.lead,
-                   notes_list(run.notes) + tables_html(run.tables, true) + "<div class=\"columns\">\n" +
-                       columns + "</div>\n" + picture_grid(run.pictures));
+  return html_page({run.name, run.lead,
+                    html_notes(run.notes) + tables_html(run.tables, true) + "<div class=\"columns\">\n" +
+                        columns + "</div>\n" + picture_grid(run.pictures)});
 }
 
 void register_page_report(Registry& registry) {

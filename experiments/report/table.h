@@ -22,8 +22,14 @@ struct Table {
 /// The first column is left-aligned, all others right-aligned.
 std::string to_text(const Table& table);
 
-/// A titled part of a page.
+/// The header, where there is one, and the rows as comma-separated values [RFC 4180, with line feeds].
+std::string to_csv(const Table& table);
+
+/// A titled part of a page, whose table can be copied.
 std::string to_html(const Table& table);
+
+/// The same without the frame of a section.
+std::string bare_html(const Table& table);
 
 /// An HTML page that needs no other file.
 std::string make_overview_page(const std::string& title, const std::string& lead,

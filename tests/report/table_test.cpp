@@ -25,5 +25,18 @@ TEST(Table, PageEscapesNamesAndLinksThemWhereTheyLead) {
   EXPECT_THAT(page, Not(HasSubstr("a<b")));
 }
 
+TEST(Table, CsvQuotesWhatWouldEndACell) {
+  EXPECT_EQ(to_csv({"", {"a", "b, c"}, {{{"", "say \"no\""}}, {{"1.5", "2"}}}}),
+            "a,\"b, c\"\n,\"say \"\"no\"\"\"\n1.5,2\n");
+  EXPECT_EQ(to_csv({"", {}, {{{"Nodes", "256"}}}}), "Nodes,256\n");
+}
+
+TEST(Table, PageSetsNamesFromTheLeftAndFiguresFromTheRight) {
+  const std::string html =
+      to_html({"", {"set", "method", "mm"}, {{{"a", "ED", "1.2"}}, {{"b", "AdNodes", "-1"}}}});
+  EXPECT_THAT(html, HasSubstr("<th class=\"name\">method</th><th>mm</th>"));
+  EXPECT_THAT(html, HasSubstr("<td class=\"name\">ED</td><td>1.2</td>"));
+}
+
 }  // namespace
 }  // namespace pliant::testing

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/report/study.h"
+
+namespace pliant {
+
+/// The words at the axis of bars: of all series, in the order in which they come.
+std::vector<std::string> labels_of(const Chart& chart);
+
+/// "1.25", or "1.25 ± 0.1 (10 runs)" where a spread is known.
+std::string value_text(const Chart::Point& point);
+
+/// What stands at the axis under a point: its label, or its number where it has none.
+std::string place_text(const Chart::Point& point);
+
+/// One row a place at the axis, one column a series.
+Table values_table(const Chart& chart);
+
+/// Every value of every chart of a study in a row of its own: chart, series, x, label, value, spread, count.
+Table values_table(const Study& study);
+
+/// What the page's script draws.
+nlohmann::ordered_json chart_json(const Chart& chart);
+
+}  // namespace pliant

@@ -1,0 +1,81 @@
+#include "experiments/report/study_page.h"
+
+#include <fmt/format.h>
+
+#include "experiments/report/chart_html.h"
+#include "experiments/report/findings_html.h"
+
+namespace pliant {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string fold(const std::string& title, const std::string& body) {
+  return "<details class=\"card\"><summary>" + title + "</summary>\n" + body + "</details>\n";
+}
+
+std::string value_of(const ordered_json& json) {
+  return json.is_string() ? json.get<std::string>()
+                          : json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// A row a value, with the names that lead there.
+void add_facts(const ordered_json& json, const std::string& name, Table& table) {
+  if (!json.is_object()) {
+    table.rows.push_back({{name, value_of(json)}});
+    return;
+  }
+  for (const auto& [key, value] : json.items())
+    add_facts(value, name.empty() ? key : name + " " + key, table);
+}
+
+std::string environment_html(const ordered_json& environment) {
+  if (environment.empty()) return "";
+  Table table{"", {}, {}};
+  add_facts(environment, "", table);
+  return fold("Versions, device and seed", bare_html(table));
+}
+
+std::string experiment_html(const std::string& experiment) {
+  if (experiment.empty()) return "";
+  return fold("The experiment, resolved", "<pre>" + html_escape(experiment) + "</pre>\n");
+}
+
+std::string charts_html(const Study& study) {
+  if (study.charts.empty()) return "";
+  std::string html;
+  for (Chart chart : study.charts) {
+    chart.name = study.name + "-" + chart.name;
+    html += chart_html(chart);
+  }
+  return "<div class=\"charts\">\n" + html + "</div>\n";
+}
+
+std::string study_html(const Study& study) {
+  std::string html = fmt::format("<article class=\"study\" id=\"{}\"><h2>{}</h2>\n", html_id(study.name),
+                                 html_escape(study.title));
+  if (!study.lead.empty()) html += "<p class=\"lead\">" + html_escape(study.lead) + "</p>\n";
+  html += findings_html(study) + charts_html(study);
+  for (const auto& table : study.tables) html += to_html(table);
+  return html + html_notes(study.notes) + experiment_html(study.experiment) +
+         environment_html(study.environment) + "</article>\n";
+}
+
+}  // namespace
+
+Page study_page(const std::string& title, const std::string& lead, const std::vector<Study>& studies) {
+  Page page{title, lead, findings_summary_html(studies)};
+  if (!page.body.empty()) page.contents.push_back({"findings", "What was found"});
+  for (const auto& study : studies) {
+    page.contents.push_back({html_id(study.name), study.title});
+    page.body += study_html(study);
+  }
+  return page;
+}
+
+std::string make_study_page(const std::string& title, const std::string& lead,
+                            const std::vector<Study>& studies) {
+  return html_page(study_page(title, lead, studies));
+}
+
+}  // namespace pliant
