@@ -14,8 +14,8 @@ namespace pliant {
 ParameterTable experiment_table();
 
 /// What stands beside the folders of several runs, in results of every kind.
-inline constexpr std::array files_beside_runs{"experiment.yaml", "result.json", "compare.json", "index.html",
-                                              "unfinished"};
+inline constexpr std::array files_beside_runs{"experiment.yaml", "result.json", "compare.json", "results.csv",
+                                              "index.html",      "charts",      "unfinished"};
 
 /// A checked experiment and the runs that it asks for.
 struct ExperimentPlan {

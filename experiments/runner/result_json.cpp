@@ -8,11 +8,9 @@
 #include "experiments/runner/version.h"
 
 namespace pliant {
-namespace {
 
 using nlohmann::ordered_json;
 
-/// What made the results.
 ordered_json environment_json(const DeviceInfo& device, const ExperimentPlan& plan) {
   ordered_json libraries_json = ordered_json::object();
   for (const auto& [name, number] : libraries()) libraries_json[name] = number;
@@ -25,8 +23,6 @@ ordered_json environment_json(const DeviceInfo& device, const ExperimentPlan& pl
           {"seed", plan.experiment.values.integer("seed")},
           {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))}};
 }
-
-}  // namespace
 
 ordered_json result_json(const ExperimentPlan& plan, const DeviceInfo& device,
                          const ExperimentResult& result) {

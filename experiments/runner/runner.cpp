@@ -8,20 +8,15 @@
 #include <utility>
 
 #include "experiments/report/report.h"
-#include "experiments/runner/result_json.h"
+#include "experiments/runner/overview.h"
 #include "experiments/runner/run_store.h"
 #include "experiments/tasks/json_file.h"
 #include "framework/core/error.h"
-#include "framework/io/file.h"
 
 namespace pliant {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_text(const fs::path& file, const std::string& text) {
-  write_file(file.string(), {text.begin(), text.end()});
-}
 
 /// Tells of a run under its own name and not that of its data.
 ProgressSink under_name(const ProgressSink& sink, const std::string& run) {
@@ -54,7 +49,8 @@ class Runs {
       if (plan_.has_variants() && !made_.runs.empty()) result.keep();
     }
     if (made_.runs.empty()) std::rethrow_exception(made_.failed.front().error);
-    write_overview(result.unfinished());
+    write_overview(task_, plan_, made_, workbench_.device(plan_.runs.front().values).info(),
+                   result.unfinished());
     result.commit();
     return std::move(made_);
   }
@@ -138,13 +134,6 @@ class Runs {
     if (plan_.has_variants()) finished.write(made, key(run), files);
   }
 
-  /// What the overview tells of the runs that are missing.
-  Table failures() const {
-    Table table{"Failed", {"run", "why"}, {}};
-    for (const auto& failed : made_.failed) table.rows.push_back({{failed.name, failed.message}});
-    return table;
-  }
-
   RunStore::Files write_reports(const ExperimentRun& run, const RunArtefacts& made, const fs::path& folder,
                                 const ProgressSink& progress) const {
     RunStore::Files files;
@@ -154,17 +143,6 @@ class Runs {
       files.insert(files.end(), written.begin(), written.end());
     }
     return files;
-  }
-
-  /// What tells of all runs.
-  void write_overview(const fs::path& folder) const {
-    write_text(folder / "experiment.yaml", plan_.experiment.to_yaml());
-    const DeviceInfo& device = workbench_.device(plan_.runs.front().values).info();
-    write_json((folder / task_.result_file()).string(), result_json(plan_, device, made_));
-    if (!plan_.has_variants() && task_.is_reported()) return;
-    std::vector<Table> tables = run_tables(task_, plan_, made_);
-    if (!made_.failed.empty()) tables.push_back(failures());
-    write_text(folder / "index.html", make_overview_page(plan_.name, task_.lead(), tables));
   }
 
   const Task& task_;
@@ -190,8 +168,7 @@ std::string page_of(const Task& task, const ExperimentPlan& plan, const std::str
 }  // namespace
 
 ResultFolder::Files result_files(const Task& task, const ExperimentPlan& plan, const Registry& registry) {
-  ResultFolder::Files files{"experiment.yaml", task.result_file()};
-  if (plan.has_variants() || !task.is_reported()) files.emplace_back("index.html");
+  ResultFolder::Files files = overview_files(task, plan);
   for (const auto& run : plan.runs) {
     const fs::path folder = plan.has_variants() ? run.name : "";
     if (plan.has_variants()) files.push_back(folder / "run.json");

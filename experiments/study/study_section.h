@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "experiments/report/study.h"
@@ -11,6 +12,9 @@ namespace pliant {
 /// What an experiment file may say in `study` of how its runs are shown together (experiments/README.md):
 /// charts, tables, claims and views.
 ParameterTable study_table();
+
+/// The keys of such a section that show anything.
+inline constexpr std::array study_parts{"charts", "tables", "claims", "views"};
 
 /// The charts, tables, findings and views that a `study` section asks for, and notes of what no run has. Rows
 /// without numbers do to find out whether it can be made. Throws ConfigError for what is no formula, and for
