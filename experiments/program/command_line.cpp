@@ -25,6 +25,7 @@ constexpr const char* overview = R"(Real-time adaptive non-rigid registration of
 
 First steps:
   pliant reproduce --quick            everything that can be reproduced, in short
+  pliant reproduce chapter5           the experiments of chapter 5 of the thesis
   pliant run experiments/sheet.yaml   one experiment; results in out/sheet
   pliant components                   what experiment files can name
 
@@ -84,6 +85,9 @@ Example:
 constexpr const char* reproduce_examples = R"(
 Example:
   pliant reproduce --quick --out out/quick --data ~/data
+  pliant reproduce chapter5
+
+What is interrupted goes on from its finished runs when it is called again.
 
 Experiments on data that is not found are skipped, and say where it was looked for.
 )";
@@ -94,7 +98,7 @@ struct Arguments {
   std::string kind;
   std::string name;
   bool json = false;
-  bool quick = false;
+  ReproduceOptions reproduce;
 };
 
 void add_set_and_data(CLI::App& command, ExperimentOptions& options) {
@@ -122,11 +126,16 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
 void add_commands(CLI::App& app, Arguments& arguments) {
   auto& experiment = arguments.experiment;
   auto* reproduce =
-      add_command(app, "reproduce", "Makes every experiment that comes with Pliant", reproduce_examples);
-  reproduce->add_flag("--quick", arguments.quick, "The short form: under a minute");
-  add_out(*reproduce, experiment, "out/reproduce");
-  reproduce->add_option("--data", experiment.data, "Folder with recorded data")->type_name("DIR");
-  reproduce->callback([&] { reproduce_command(arguments.quick, experiment.out, experiment.data); });
+      add_command(app, "reproduce", "Makes the experiments that come with Pliant, and a page over them",
+                  reproduce_examples);
+  auto& reproduced = arguments.reproduce;
+  reproduce->add_option("CHAPTER", reproduced.chapter, "Only those of one chapter: chapter5");
+  reproduce->add_flag("--quick", reproduced.quick, "The short form: some minutes");
+  reproduce
+      ->add_option("--out", reproduced.out, "Folder for the results; out/reproduce or out/CHAPTER by default")
+      ->type_name("DIR");
+  reproduce->add_option("--data", reproduced.data, "Folder with recorded data")->type_name("DIR");
+  reproduce->callback([&] { reproduce_command(reproduced); });
 
   auto* run = add_command(app, "run", "Registers what an experiment file describes", run_examples);
   add_set_and_data(*run, experiment);

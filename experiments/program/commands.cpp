@@ -46,7 +46,8 @@ void make(const Task& task, const ExperimentPlan& plan, const ExperimentOptions&
   const fs::path folder = out_folder(options, plan);
   Workbench workbench(registry, show_line);
   ProgressLine line;
-  const ExperimentResult result = run_experiment(task, plan, folder, workbench, line.sink(), options.repeats);
+  const ExperimentResult result =
+      run_experiment(task, plan, folder, workbench, line.sink(), {options.repeats});
   line.clear();
   tell(task, plan, result, folder);
   check_ends(result);

@@ -1,8 +1,11 @@
 #include "experiments/program/reproduce.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,9 +16,13 @@
 #include "experiments/program/folders.h"
 #include "experiments/program/output.h"
 #include "experiments/program/progress_line.h"
+#include "experiments/program/time_left.h"
+#include "experiments/report/study_page.h"
 #include "experiments/runner/components.h"
+#include "experiments/runner/overview.h"
 #include "experiments/runner/runner.h"
 #include "framework/core/error.h"
+#include "framework/core/nearest.h"
 #include "framework/io/file.h"
 
 namespace pliant {
@@ -27,40 +34,91 @@ constexpr const char* page_name = "index.html";
 
 /// An experiment to be reproduced.
 struct Item {
-  const char* name;    ///< of its file in the experiments folder
-  bool is_comparison;  ///< of solvers, else it is run
-  const char* needs;   ///< data that not every machine has; empty: none
+  std::string name;            ///< of its folder in the result
+  fs::path file;               ///< in the experiments folder
+  std::string title = {};      ///< of its part of the page; empty: what its `study` says
+  bool is_comparison = false;  ///< of solvers, else it is run
+  std::string needs = {};      ///< data that not every machine has; empty: none
 };
 
-constexpr std::array items{
-    Item{"sheet", false, ""},
-    Item{"edit_handles", false, ""},
-    Item{"shirt", false, "deepdeform_seq258/depth_000000.png"},
-    Item{"compare_solvers", true, ""},
+const std::vector<Item>& first_items() {
+  static const std::vector<Item> items{
+      {"sheet", "sheet.yaml", "A sheet that bends"},
+      {"edit_handles", "edit_handles.yaml", "A sheet bent by handles"},
+      {"shirt", "shirt.yaml", "A shirt [DeepDeform]", false, "deepdeform_seq258/depth_000000.png"},
+      {"compare_solvers", "compare_solvers.yaml", "The device's solvers beside Ceres", true},
+  };
+  return items;
+}
+
+/// A chapter of the thesis whose experiments are files of a folder.
+struct Chapter {
+  const char* folder;
+  const char* title;
 };
+
+constexpr std::array chapters{Chapter{"chapter5", "Chapter 5: registration of pairs"}};
+
+/// The experiments of a chapter, in the order of their files' names.
+std::vector<Item> items_of(const Chapter& chapter) {
+  std::vector<Item> items;
+  for (const auto& entry : fs::directory_iterator(experiments_folder() / chapter.folder))
+    if (entry.path().extension() == ".yaml")
+      items.push_back({entry.path().stem().string(), fs::path(chapter.folder) / entry.path().filename()});
+  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.name < b.name; });
+  return items;
+}
+
+/// What one call reproduces.
+struct Selection {
+  std::string title;
+  std::vector<Item> items;
+};
+
+Selection selection_of(const std::string& chapter) {
+  if (chapter.empty()) {
+    Selection all{"Reproduction", first_items()};
+    for (const Chapter& each : chapters)
+      for (Item& item : items_of(each)) all.items.push_back(std::move(item));
+    return all;
+  }
+  std::vector<std::string> names;
+  for (const Chapter& each : chapters) {
+    if (chapter == each.folder) return {each.title, items_of(each)};
+    names.emplace_back(each.folder);
+  }
+  throw ConfigError(fmt::format("unknown chapter '{}'; expected {}{}", chapter, fmt::join(names, ", "),
+                                suggestion(chapter, names)));
+}
 
 class Reproduction {
  public:
-  Reproduction(bool quick, fs::path out, std::string data)
-      : quick_(quick), out_(std::move(out)), data_(std::move(data)), workbench_(registry_, show_line) {
+  explicit Reproduction(const ReproduceOptions& options)
+      : options_(options), selection_(selection_of(options.chapter)), workbench_(registry_, show_line) {
     register_everything(registry_);
+    for (const Item& item : selection_.items) plan(item);
   }
 
-  /// Makes all; gives the path of the page over everything.
-  fs::path make() {
-    for (const auto& item : items) plan(item);
-    ResultFolder result(out_, files_, inputs_);
-    try {
-      make_all(result.unfinished());
-    } catch (const Error& error) {
-      if (tables_.empty()) throw;
-      result.keep();
-      throw Error(fmt::format("{}; the experiments before it are kept in {}", error.what(),
-                              result.unfinished().string()),
-                  error.exit_code());
+  /// Gives the path of the page over everything.
+  fs::path make(const fs::path& out) {
+    ResultFolder result(out, files_, inputs_, ResultFolder::Leftovers::stay);
+    result.keep_only(folders_);
+    std::size_t runs = 0;
+    for (const auto& planned : planned_) runs += planned.plan ? planned.plan->runs.size() : 0;
+    TimeLeft time(runs);
+    for (const auto& planned : planned_) {
+      studies_.push_back(planned.plan ? study(planned, result, time) : skipped(planned.item));
+      for (const Table& table : studies_.back().tables) print("{}\n", to_text(table));
     }
+    if (are_all_failed_) std::rethrow_exception(failure_);
+    write_page(result.unfinished());
     result.commit();
-    return fs::absolute(out_ / page_name).lexically_normal();
+    return fs::absolute(out / page_name).lexically_normal();
+  }
+
+  /// Throws the error of the first run that failed, if one did.
+  void check_ends() const {
+    if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
@@ -71,71 +129,112 @@ class Reproduction {
   };
 
   void plan(const Item& item) {
-    if (*item.needs != '\0' && !find_data(data_folders(data_), item.needs)) {
+    if (!item.needs.empty() && !find_data(data_folders(options_.data), item.needs)) {
       planned_.push_back({item, {}, {}});
       return;
     }
     ExperimentOptions options;
-    options.file = (experiments_folder() / (std::string(item.name) + ".yaml")).string();
-    options.data = data_;
+    options.file = (experiments_folder() / item.file).string();
+    options.data = options_.data;
     ExperimentPlan plan = plan_experiment(config_source(options), registry_);
-    if (quick_) plan.keep_quick_runs();
+    if (options_.quick) plan.keep_quick_runs();
     auto task = item.is_comparison ? make_compare_task() : make_task(plan.experiment.values);
     for (const auto& file : result_files(*task, plan, registry_)) files_.push_back(item.name / file);
     inputs_.insert(inputs_.end(), plan.experiment.files.begin(), plan.experiment.files.end());
+    folders_.emplace_back(item.name);
     planned_.push_back({item, std::move(task), std::move(plan)});
   }
 
-  void make_all(const fs::path& folder) {
-    for (const auto& [item, task, plan] : planned_) {
-      if (!plan) {
-        skip(item);
-        continue;
-      }
-      for (auto& table : run(item.name, *task, *plan, folder)) {
-        print("{}\n", to_text(table));
-        tables_.push_back(std::move(table));
-      }
+  /// Makes an experiment; what of it fails is told in its study.
+  Study study(const Planned& planned, ResultFolder& result, TimeLeft& time) {
+    const fs::path folder = result.unfinished() / planned.item.name;
+    try {
+      ProgressLine line;
+      const ProgressSink sink = line.sink();
+      const ExperimentResult made =
+          run_experiment(*planned.task, *planned.plan, folder, workbench_, time.counting(sink), {0, true});
+      line.clear();
+      result.keep();
+      are_all_failed_ = false;
+      note_failure(made);
+      return study_of(planned, made, folder);
+    } catch (const Error& error) {
+      note_failure(std::current_exception());
+      return {planned.item.name,
+              planned.item.title.empty() ? planned.item.name : planned.item.title,
+              "",
+              {},
+              {},
+              {},
+              {},
+              {fmt::format("Failed: {}", error.what())},
+              "",
+              {}};
     }
-    const std::string page = make_overview_page(
-        quick_ ? "Reproduction, quick form" : "Reproduction",
-        "Distances in mm before and after; the first name of each row leads to its page.", tables_);
-    write_file((folder / page_name).string(), {page.begin(), page.end()});
   }
 
-  std::vector<Table> run(const char* name, const Task& task, const ExperimentPlan& plan,
-                         const fs::path& folder) {
-    ProgressLine line;
-    const auto result = run_experiment(task, plan, folder / name, workbench_, line.sink());
-    check_ends(result);
-    return run_tables(task, plan, result, name);
+  Study study_of(const Planned& planned, const ExperimentResult& made, const fs::path& folder) {
+    const DeviceInfo& device = workbench_.device(planned.plan->runs.front().values).info();
+    Study study = pliant::study_of(*planned.plan, made, device, folder);
+    study.name = planned.item.name;
+    if (!planned.item.title.empty()) study.title = planned.item.title;
+    if (study.tables.empty() && study.charts.empty())
+      study.tables = run_tables(*planned.task, *planned.plan, made, planned.item.name);
+    return study;
   }
 
-  void skip(const Item& item) {
+  void note_failure(const ExperimentResult& made) {
+    try {
+      pliant::check_ends(made);
+    } catch (const Error&) {
+      note_failure(std::current_exception());
+    }
+  }
+
+  void note_failure(const std::exception_ptr& failure) {
+    if (!failure_) failure_ = failure;
+  }
+
+  Study skipped(const Item& item) const {
     std::string looked;
-    for (const auto& folder : data_folders(data_))
+    for (const auto& folder : data_folders(options_.data))
       looked += (looked.empty() ? "" : ", ") + (folder / item.needs).lexically_normal().string();
     const std::string why = fmt::format("SKIPPED: its data was not found; looked for {}", looked);
     print("{}\n  {}\n  (give the folder with --data or the variable PLIANT_DATA)\n\n", item.name, why);
-    tables_.push_back({item.name, {"skipped"}, {{{why}}}});
+    return {item.name, item.title, "", {}, {}, {}, {}, {why}, "", {}};
   }
 
-  bool quick_;
-  fs::path out_;
-  std::string data_;
+  void write_page(const fs::path& folder) const {
+    const std::string page = make_study_page(
+        selection_.title + (options_.quick ? ", quick form" : ""),
+        "Experiments of A. C. dos Santos Souza, An Adaptive Approach to Real-Time 3D Non-Rigid "
+        "Registration (UFBA, 2014), on data whose true motion is known.",
+        studies_);
+    write_file((folder / page_name).string(), {page.begin(), page.end()});
+  }
+
+  const ReproduceOptions& options_;
+  Selection selection_;
   Registry registry_;
   Workbench workbench_;
   std::vector<Planned> planned_;
   ResultFolder::Files files_{page_name};
   ResultFolder::Files inputs_;
-  std::vector<Table> tables_;
+  ResultFolder::Files folders_;
+  std::vector<Study> studies_;
+  std::exception_ptr failure_;  // of the first run that failed
+  bool are_all_failed_ = true;
 };
 
 }  // namespace
 
-void reproduce_command(bool quick, const std::string& out, const std::string& data) {
-  Reproduction reproduction(quick, out.empty() ? fs::path("out/reproduce") : fs::path(out), data);
-  print("The report is {}\n", reproduction.make().string());
+void reproduce_command(const ReproduceOptions& options) {
+  Reproduction reproduction(options);
+  const fs::path out = !options.out.empty()      ? fs::path(options.out)
+                       : options.chapter.empty() ? fs::path("out/reproduce")
+                                                 : fs::path("out") / options.chapter;
+  print("The report is {}\n", reproduction.make(out).string());
+  reproduction.check_ends();
 }
 
 }  // namespace pliant

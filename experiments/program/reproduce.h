@@ -4,9 +4,17 @@
 
 namespace pliant {
 
-/// Makes every experiment that comes with the program, in a short form when `quick`, into `out` (empty:
-/// out/reproduce below the current folder), and one page that leads to all of them. An experiment whose data
-/// is not found is skipped, and says so. Throws what the first one that fails throws.
-void reproduce_command(bool quick, const std::string& out, const std::string& data);
+/// What to reproduce.
+struct ReproduceOptions {
+  std::string chapter;  ///< as "chapter5"; empty: all there is
+  bool quick = false;
+  std::string out;   ///< empty: a folder below out/
+  std::string data;  ///< where recorded data is looked for first; empty: nowhere special
+};
+
+/// Makes every experiment of a chapter, or all that come with Pliant, and one page over them, whose path is
+/// told. What was finished by one that did not come to its end is taken from it. An experiment that fails
+/// keeps no other from being made; the first one's error is thrown when all is written.
+void reproduce_command(const ReproduceOptions& options);
 
 }  // namespace pliant

@@ -36,13 +36,13 @@ bool has_page(const Task& task, const ExperimentRun& run) {
 class Runs {
  public:
   Runs(const Task& task, const ExperimentPlan& plan, Workbench& workbench, const ProgressSink& progress,
-       int repeats)
-      : task_(task), plan_(plan), workbench_(workbench), progress_(progress), repeats_(repeats) {}
+       const RunOptions& options)
+      : task_(task), plan_(plan), workbench_(workbench), progress_(progress), options_(options) {}
 
   ExperimentResult make(const fs::path& folder) {
     ResultFolder result(folder, result_files(task_, plan_, workbench_.registry()), plan_.experiment.files,
                         plan_.has_variants() ? ResultFolder::Leftovers::stay : ResultFolder::Leftovers::go);
-    const RunStore finished(result.unfinished(), is_incomplete(folder) ? folder : "");
+    const RunStore finished(result.unfinished(), options_.takes_whole || is_incomplete(folder) ? folder : "");
     if (plan_.has_variants()) result.keep_only(take(finished));
     for (const auto& run : plan_.runs) {
       make_or_take(run, result.unfinished(), finished);
@@ -62,7 +62,7 @@ class Runs {
 
   /// How often a run is timed: as the caller says, else as its experiment does.
   int repeats(const ExperimentRun& run) const {
-    return repeats_ > 0 ? repeats_ : static_cast<int>(run.values.integer("repeat"));
+    return options_.repeats > 0 ? options_.repeats : static_cast<int>(run.values.integer("repeat"));
   }
 
   /// Whether the result in a folder lacks runs that failed.
@@ -92,7 +92,7 @@ class Runs {
   void make_or_take(const ExperimentRun& run, const fs::path& folder, const RunStore& finished) {
     const auto taken = taken_.find(run.name);
     if (taken != taken_.end()) {
-      under_name(progress_, run.name)({"", 1, "taken from the earlier result"});
+      under_name(progress_, run.name)({"", 1, taken_message});
       made_.runs.push_back(taken->second);
       made_.taken.push_back(run.name);
       return;
@@ -149,7 +149,7 @@ class Runs {
   const ExperimentPlan& plan_;
   Workbench& workbench_;
   const ProgressSink& progress_;
-  int repeats_;
+  const RunOptions& options_;
   std::map<std::string, RunSummary> taken_;
   ExperimentResult made_;
 };
@@ -192,8 +192,9 @@ void check_experiment(const ExperimentPlan& plan, Workbench& workbench) {
 }
 
 ExperimentResult run_experiment(const Task& task, const ExperimentPlan& plan, const fs::path& folder,
-                                Workbench& workbench, const ProgressSink& progress, int repeats) {
-  return Runs(task, plan, workbench, progress, repeats).make(folder);
+                                Workbench& workbench, const ProgressSink& progress,
+                                const RunOptions& options) {
+  return Runs(task, plan, workbench, progress, options).make(folder);
 }
 
 void check_ends(const ExperimentResult& result) {

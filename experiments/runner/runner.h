@@ -33,9 +33,19 @@ ResultFolder::Files result_files(const Task& task, const ExperimentPlan& plan, c
 /// data. Throws what running it would.
 void check_experiment(const ExperimentPlan& plan, Workbench& workbench);
 
+/// How an experiment is run.
+struct RunOptions {
+  int repeats = 0;  ///< see Task::make; 0: as the experiment says
+  /// Whether runs are also taken from a result that is whole: one of many that are made together.
+  bool takes_whole = false;
+};
+
+/// What the progress of a run says that is not made but taken.
+inline constexpr const char* taken_message = "taken from the earlier result";
+
 /// Makes every run of an experiment, and writes into `folder`: the task's file of numbers, experiment.yaml,
-/// and what the reports write, of several runs each into a folder of its own name, with an index.html that
-/// leads there. For `repeats` see Task::make.
+/// and what the reports write, of several runs each into a folder of its own name, with a page over all of
+/// them (write_overview).
 ///
 /// A run that fails with an Error keeps no other from being made; where all do, the first one's is thrown and
 /// the folder stays as it was. It changes only when all is done (ResultFolder); what else ends this before
@@ -43,7 +53,7 @@ void check_experiment(const ExperimentPlan& plan, Workbench& workbench);
 /// result in which runs failed (RunStore).
 ExperimentResult run_experiment(const Task& task, const ExperimentPlan& plan,
                                 const std::filesystem::path& folder, Workbench& workbench,
-                                const ProgressSink& progress = {}, int repeats = 0);
+                                const ProgressSink& progress = {}, const RunOptions& options = {});
 
 /// Throws the error of the first run that failed, else NumericalError for the first whose result is not the
 /// one that was asked for.

@@ -36,6 +36,9 @@ DeviceOptions device_options(const Parameters& experiment) {
 
 namespace {
 
+// Of 640x480 pixels with their truth they are half a gigabyte.
+constexpr std::size_t most_pairs = 48;
+
 /// Of a file, so that another one under the same name is not taken for it; of any other word nothing.
 std::string time_of_change(const std::filesystem::path& word) {
   std::error_code ignored;
@@ -94,6 +97,7 @@ const Workbench::Data& Workbench::data(const Parameters& experiment) {
       registry_.make<FrameSource>(section)->open(device(experiment), static_cast<std::uint64_t>(seed));
   Data data{read_pair(*stream), stream->truth(2)};
   if (data.truth) check(*data.truth, data.pair);
+  if (data_.size() >= most_pairs) data_.clear();
   return data_.emplace(key, std::move(data)).first->second;
 }
 

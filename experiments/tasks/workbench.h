@@ -33,8 +33,8 @@ class Workbench {
   const Registry& registry() const { return registry_; }
   /// Throws DeviceError when there is none that the experiment would take.
   Device& device(const Parameters& experiment);
-  /// The first two frames of the experiment's data, made on its device. Throws DataError when they cannot be
-  /// used, DeviceError as above.
+  /// The first two frames of the experiment's data, made on its device; valid until another is asked for.
+  /// Throws DataError when they cannot be used, DeviceError as above.
   const FramePair& pair(const Parameters& experiment) { return data(experiment).pair; }
   /// What is known of that pair, for who measures.
   const std::optional<PairTruth>& truth(const Parameters& experiment) { return data(experiment).truth; }

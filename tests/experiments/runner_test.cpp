@@ -229,7 +229,7 @@ TEST_F(RunnerTest, RepeatsTellTheMedianAndTheSpreadOfRunsAfterTheFirst) {
   const auto count = [&](const Progress& step) {
     warm_ups += step.message.find("warm-up, iteration 1:") == 0;
   };
-  const auto result = run_experiment(*task_, plan(""), file("out"), workbench_, count, 3);
+  const auto result = run_experiment(*task_, plan(""), file("out"), workbench_, count, {3});
   const ordered_json entry = ordered_json::parse(text_of("out/result.json"))["runs"][0];
   const ordered_json& timing = entry["timing"];
   EXPECT_EQ(warm_ups, 1);
