@@ -4,14 +4,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "framework/io/file.h"
+#include "framework/io/gltf_animation.h"
 #include "framework/io/gltf_document.h"
+#include "framework/io/gltf_nodes.h"
+#include "framework/io/gltf_skin.h"
 
 namespace pliant {
 namespace {
@@ -30,99 +33,56 @@ struct Primitive {
   std::vector<std::vector<Eigen::Vector3f>> displacements;  ///< per target
 };
 
+/// Reads the meshes of nodes, placed by them or, where there are joints, in the frames that joints carry.
 class SceneReader {
  public:
-  SceneReader(const GltfDocument& document, double unit) : document_(document), unit_(unit) {}
+  SceneReader(const GltfDocument& document, const std::vector<GltfNode>& nodes, double unit,
+              GltfJoints* joints)
+      : document_(document), nodes_(nodes), unit_(unit), joints_(joints) {}
 
   Mesh read() {
-    collect_nodes();
+    for (std::size_t i = 0; i < nodes_.size(); ++i) add_mesh(i);
     if (mesh_.triangles.empty()) document_.fail("its scene shows no triangle");
     for (MorphTarget& target : mesh_.targets) pad(target);
+    if (joints_ != nullptr) mesh_.joints = joints_->joints();
     return std::move(mesh_);
   }
 
+  /// Which morph targets of the mesh those of a node of the file's list are.
+  const std::map<std::size_t, std::vector<std::size_t>>& targets() const { return targets_; }
+
  private:
-  struct PlacedNode {
-    std::size_t node;
-    Eigen::Affine3d parent;
-  };
-
-  // A list of nodes still to visit rather than recursion: a file may be deeper than the stack.
-  void collect_nodes() {
-    std::vector<bool> visited(document_.list(document_.root(), "nodes").size());
-    std::vector<PlacedNode> pending;
-    const auto add_all = [&](const std::vector<Json>& indices, const Eigen::Affine3d& parent) {
-      for (const Json& index : indices) pending.push_back({document_.index(index, "node"), parent});
-    };
-    for (const std::size_t node : roots()) pending.push_back({node, Eigen::Affine3d::Identity()});
-    while (!pending.empty()) {
-      const PlacedNode placed = pending.back();
-      pending.pop_back();
-      const Json& node = document_.element("nodes", placed.node);
-      if (visited[placed.node]) document_.fail(fmt::format("node {} has two parents", placed.node));
-      visited[placed.node] = true;
-      const Eigen::Affine3d placement = placed.parent * local_transform(node);
-      if (document_.find(node, "mesh") != nullptr) add_mesh(node, placement);
-      add_all(document_.list(node, "children"), placement);
-    }
-  }
-
-  /// The nodes of the default scene; where there is no scene, those that are nobody's children.
-  std::vector<std::size_t> roots() const {
-    std::vector<std::size_t> roots;
-    if (document_.find(document_.root(), "scenes") != nullptr) {
-      const Json& scene = document_.element("scenes", document_.integer(document_.root(), "scene", 0));
-      for (const Json& index : document_.list(scene, "nodes"))
-        roots.push_back(document_.index(index, "node"));
-      return roots;
-    }
-    const auto& nodes = document_.list(document_.root(), "nodes");
-    std::vector<bool> is_child(nodes.size());
-    for (const Json& node : nodes)
-      for (const Json& index : document_.list(node, "children")) {
-        const std::size_t child = document_.index(index, "node");
-        document_.element("nodes", child);
-        is_child[child] = true;
-      }
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (!is_child[i]) roots.push_back(i);
-    return roots;
-  }
-
-  Eigen::Affine3d local_transform(const Json& node) const {
-    Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-    if (const auto matrix = document_.numbers(node, "matrix", 16)) {
-      transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(matrix->data());
-      if (transform.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
-        document_.fail("the matrix of a node is not affine");
-      }
-      return transform;
-    }
-    if (const auto t = document_.numbers(node, "translation", 3)) {
-      transform.translate(Eigen::Vector3d(t->data()));
-    }
-    if (const auto r = document_.numbers(node, "rotation", 4)) {
-      const Eigen::Quaterniond rotation(Eigen::Vector4d(r->data()));  // x y z w, as in the file
-      constexpr double kTolerance = 1e-3;
-      if (!(std::abs(rotation.norm() - 1) < kTolerance)) {
-        document_.fail("the rotation of a node is not a unit quaternion");
-      }
-      transform.rotate(rotation.normalized());
-    }
-    if (const auto s = document_.numbers(node, "scale", 3)) transform.scale(Eigen::Vector3d(s->data()));
-    return transform;
-  }
-
-  void add_mesh(const Json& node, const Eigen::Affine3d& placement) {
-    if (document_.find(node, "skin") != nullptr) document_.fail("a skinned mesh, which is not supported");
-    const Json& mesh = document_.element("meshes", document_.integer(node, "mesh"));
-    for (const Json& description : document_.list(mesh, "primitives")) {
-      const std::size_t mode = document_.integer(description, "mode", kTriangleList);
+  void add_mesh(std::size_t index) {
+    const GltfNode& node = nodes_[index];
+    const Json& description = document_.element("nodes", node.number);
+    if (document_.find(description, "mesh") == nullptr) return;
+    const Json& mesh = document_.element("meshes", document_.integer(description, "mesh"));
+    for (const Json& part : document_.list(mesh, "primitives")) {
+      const std::size_t mode = document_.integer(part, "mode", kTriangleList);
       if (mode > kTriangleFan) document_.fail(fmt::format("a primitive of mode {}, expected 0 to 6", mode));
       if (mode < kTriangleList) continue;  // points or lines
-      const Primitive primitive = read_primitive(description);
-      add_primitive(primitive, target_names(mesh, primitive.displacements.size()), placement);
+      const Primitive primitive = read_primitive(part);
+      const std::vector<std::string> names = target_names(mesh, primitive.displacements.size());
+      add_primitive(primitive, names, joints_ != nullptr ? Eigen::Affine3d::Identity() : node.placed);
+      note_targets(node.number, names);
+      if (joints_ != nullptr) add_skin(index, description, part, primitive.positions.size());
     }
+  }
+
+  void note_targets(std::size_t node, const std::vector<std::string>& names) {
+    std::vector<std::size_t>& targets = targets_[node];
+    targets.clear();
+    for (const std::string& name : names)
+      targets.push_back(static_cast<std::size_t>(&target_named(name) - mesh_.targets.data()));
+  }
+
+  void add_skin(std::size_t index, const Json& node, const Json& primitive, std::size_t vertices) {
+    if (document_.find(node, "skin") == nullptr) {
+      mesh_.skin.insert(mesh_.skin.end(), vertices, joints_->carried_by(index));
+      return;
+    }
+    const auto weights = joints_->read_weights(primitive, document_.integer(node, "skin"), vertices);
+    mesh_.skin.insert(mesh_.skin.end(), weights.begin(), weights.end());
   }
 
   Primitive read_primitive(const Json& description) const {
@@ -256,15 +216,112 @@ class SceneReader {
   }
 
   const GltfDocument& document_;
-  double unit_;  ///< mm
+  const std::vector<GltfNode>& nodes_;
+  double unit_;         ///< mm
+  GltfJoints* joints_;  ///< null: nodes place their meshes
   Mesh mesh_;
+  std::map<std::size_t, std::vector<std::size_t>> targets_;
 };
+
+bool shows_skin(const GltfDocument& document, const std::vector<GltfNode>& nodes) {
+  return std::any_of(nodes.begin(), nodes.end(), [&](const GltfNode& node) {
+    const Json& description = document.element("nodes", node.number);
+    return document.find(description, "skin") != nullptr && document.find(description, "mesh") != nullptr;
+  });
+}
+
+bool is_mirror(const Eigen::Affine3d& transform) { return transform.linear().determinant() < 0; }
+
+/// Turns the triangles that the joints mirror at rest, so that their corners run as a mesh has it.
+void turn_mirrored(Mesh& mesh) {
+  std::vector<bool> mirrors;       // from each joint's frame to the mesh's
+  std::vector<bool> mirrors_mesh;  // and what it carries
+  for (const Joint& joint : mesh.joints) {
+    const bool above = joint.parent >= 0 && mirrors[static_cast<std::size_t>(joint.parent)];
+    mirrors.push_back(above != is_mirror(joint.rest));
+    mirrors_mesh.push_back(mirrors.back() != is_mirror(joint.joint_from_mesh));
+  }
+  for (Eigen::Vector3i& triangle : mesh.triangles) {
+    const int strongest = mesh.skin[static_cast<std::size_t>(triangle[0])].joints[0];
+    if (mirrors_mesh[static_cast<std::size_t>(strongest)]) std::swap(triangle[1], triangle[2]);
+  }
+}
+
+std::vector<Eigen::Vector3f> to_floats(const std::vector<Eigen::Vector3d>& vectors,
+                                       const GltfDocument& document) {
+  std::vector<Eigen::Vector3f> floats;
+  floats.reserve(vectors.size());
+  for (const Eigen::Vector3d& vector : vectors) {
+    floats.emplace_back(vector.cast<float>());
+    if (!floats.back().allFinite()) document.fail("the transforms of its nodes carry a vertex to infinity");
+  }
+  return floats;
+}
+
+/// The mesh as its joints carry it at rest. Skinning is linear, so that targets displace what they did.
+Mesh without_joints(const Mesh& mesh, const GltfDocument& document) {
+  MeshPose pose = mesh.rest();
+  const std::vector<Eigen::Vector3d> at_rest = mesh.deform(pose);
+  Mesh still{to_floats(at_rest, document), mesh.triangles, {}};
+  for (std::size_t t = 0; t < mesh.targets.size(); ++t) {
+    pose.weights[t] = 1;
+    std::vector<Eigen::Vector3d> displacements = mesh.deform(pose);
+    for (std::size_t i = 0; i < displacements.size(); ++i) displacements[i] -= at_rest[i];
+    still.targets.push_back({mesh.targets[t].name, to_floats(displacements, document)});
+    pose.weights[t] = 0;
+  }
+  return still;
+}
+
+/// Chains the nodes if that is wanted, and says what is odd about it.
+std::vector<std::string> chain(const GltfDocument& document, const std::vector<bool>& moved, bool is_wanted,
+                               const std::string& path, std::vector<GltfNode>& nodes) {
+  std::vector<bool> may_move = moved;
+  may_move.flip();
+  if (is_wanted) {
+    if (chain_nodes(document, may_move, nodes) > 0) return {};
+    return {
+        fmt::format("{}: no names of its {} nodes make chains of joints, so that chain_joints does nothing",
+                    path, nodes.size())};
+  }
+  std::vector<GltfNode> chained = nodes;
+  const int count = chain_nodes(document, may_move, chained);
+  if (2 * static_cast<std::size_t>(count) < nodes.size()) return {};
+  return {fmt::format(
+      "{}: the names of {} of its {} nodes make chains, though they are children of one node, so that joints "
+      "bend alone; chain_joints builds the chains",
+      path, count, nodes.size())};
+}
 
 }  // namespace
 
+GltfScene read_gltf_scene(const std::string& path, const GltfOptions& options) {
+  const GltfDocument document(read_file(path), path);
+  std::vector<GltfNode> nodes = read_nodes(document);
+  const std::vector<bool> moved = moved_nodes(document, nodes);
+  const bool has_joints =
+      shows_skin(document, nodes) || std::find(moved.begin(), moved.end(), true) != moved.end();
+  GltfScene scene;
+  if (has_joints) scene.warnings = chain(document, moved, options.chain_joints, path, nodes);
+  GltfJoints joints(document, nodes, options.unit);
+  SceneReader reader(document, nodes, options.unit, has_joints ? &joints : nullptr);
+  scene.mesh = reader.read();
+  if (has_joints) {
+    turn_mirrored(scene.mesh);
+    to_floats(scene.mesh.deform(scene.mesh.rest()), document);  // so that it can be shown
+  }
+  scene.animations = read_animations(document, nodes, reader.targets(), options.unit);
+  return scene;
+}
+
 Mesh read_gltf(const std::string& path, double unit) {
   const GltfDocument document(read_file(path), path);
-  return SceneReader(document, unit).read();
+  const std::vector<GltfNode> nodes = read_nodes(document);
+  if (!shows_skin(document, nodes)) return SceneReader(document, nodes, unit, nullptr).read();
+  GltfJoints joints(document, nodes, unit);
+  Mesh mesh = SceneReader(document, nodes, unit, &joints).read();
+  turn_mirrored(mesh);
+  return without_joints(mesh, document);
 }
 
 }  // namespace pliant

@@ -2,34 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/io/gltf_container.h"
 
 namespace pliant {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Numbers are copied from the file as they are.
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "glTF files are little-endian");
-
-constexpr std::uint32_t kMagic = 0x46546C67;        // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
-constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
+constexpr std::size_t kByte = 5120;
 constexpr std::size_t kUnsignedByte = 5121;
+constexpr std::size_t kShort = 5122;
 constexpr std::size_t kUnsignedShort = 5123;
 constexpr std::size_t kUnsignedInt = 5125;
 constexpr std::size_t kFloat = 5126;
-
-std::uint32_t word_at(const Bytes& bytes, std::size_t offset) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + offset, sizeof(word));
-  return word;
-}
 
 /// Bytes of an unsigned integer of a component type, 0 for another type.
 std::size_t index_size(std::size_t component_type) {
@@ -46,54 +37,76 @@ std::vector<std::uint32_t> unpack(const Bytes& bytes, std::size_t size) {
   return numbers;
 }
 
+std::size_t components_of(const std::string& type) {
+  if (type == "SCALAR") return 1;
+  return type == "MAT4" ? 16 : static_cast<std::size_t>(type.back() - '0');
+}
+
+/// A number as it stands in a buffer.
+struct Component {
+  std::size_t type = kFloat;
+  bool is_normalised = false;
+
+  std::size_t size() const {
+    if (type == kFloat) return 4;
+    return type == kShort || type == kUnsignedShort ? 2 : 1;
+  }
+
+  /// glTF 2.0, section 3.6.2.2: the smallest signed integer stands for -1 as the next one does.
+  float at(const std::uint8_t* bytes) const {
+    if (type == kFloat) return copied<float>(bytes);
+    const bool is_signed = type == kByte || type == kShort;
+    int value = 0;
+    if (size() == 1) value = is_signed ? copied<std::int8_t>(bytes) : copied<std::uint8_t>(bytes);
+    if (size() == 2) value = is_signed ? copied<std::int16_t>(bytes) : copied<std::uint16_t>(bytes);
+    if (!is_normalised) return static_cast<float>(value);
+    const int largest = (1 << (8 * static_cast<int>(size()) - (is_signed ? 1 : 0))) - 1;
+    return std::max(static_cast<float>(value) / static_cast<float>(largest), -1.0F);
+  }
+
+ private:
+  template <class Number>
+  static Number copied(const std::uint8_t* bytes) {
+    Number number;
+    std::memcpy(&number, bytes, sizeof(number));
+    return number;
+  }
+};
+
 }  // namespace
 
 GltfDocument::GltfDocument(const Bytes& bytes, std::string path)
-    : path_(std::move(path)), file_size_(bytes.size()) {
-  split(bytes);
+    : path_(std::move(path)), total_size_(bytes.size()) {
+  GltfContainer container = open_gltf(bytes, path_);
+  root_ = std::move(container.root);
+  binary_ = std::move(container.binary);
   check_support();
+  load_buffers();
 }
 
 void GltfDocument::fail(const std::string& what) const {
   throw DataError(fmt::format("{}: {}", path_, what));
 }
 
-void GltfDocument::split(const Bytes& bytes) {
-  constexpr std::size_t kHeader = 12;
-  constexpr std::size_t kChunkHeader = 8;
-  if (bytes.size() >= 4 && word_at(bytes, 0) != kMagic) fail("not a binary glTF file (.glb)");
-  if (bytes.size() < kHeader) fail(fmt::format("truncated: {} bytes are less than a header", bytes.size()));
-  if (word_at(bytes, 4) != 2) fail(fmt::format("glTF version {}, expected 2", word_at(bytes, 4)));
-  const std::size_t length = word_at(bytes, 8);
-  if (length != bytes.size()) {
-    fail(fmt::format("{}: {} bytes, expected {}", length > bytes.size() ? "truncated" : "too long",
-                     bytes.size(), length));
-  }
-  for (std::size_t offset = kHeader; offset < bytes.size();) {
-    const std::size_t rest = bytes.size() - offset;
-    if (rest < kChunkHeader) fail(fmt::format("{} bytes after the last chunk", rest));
-    const std::size_t size = word_at(bytes, offset);
-    const std::uint32_t type = word_at(bytes, offset + 4);
-    if (size > rest - kChunkHeader) {
-      fail(fmt::format("a chunk of {} bytes, but only {} are left", size, rest - kChunkHeader));
-    }
-    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(offset + kChunkHeader);
-    const auto end = begin + static_cast<std::ptrdiff_t>(size);
-    if (offset == kHeader) {
-      if (type != kJsonChunk) fail("the first chunk is not JSON");
-      root_ = Json::parse(begin, end, nullptr, false);
-      if (!root_.is_object()) fail("its JSON is damaged");
-    } else if (type == kBinaryChunk && binary_.empty()) {
-      binary_.assign(begin, end);
-    }
-    offset += kChunkHeader + size;
+/// What changes materials only may be needed by who shows them.
+void GltfDocument::check_support() {
+  for (const Json& needed : list(root_, "extensionsRequired")) {
+    const std::string name = needed.is_string() ? needed.get<std::string>() : "";
+    if (name == "KHR_mesh_quantization")
+      is_quantised_ = true;
+    else if (!name.starts_with("KHR_materials_") && !name.starts_with("KHR_texture_"))
+      fail(fmt::format("needs the extension {}, which is not supported", shown_json(needed)));
   }
 }
 
-void GltfDocument::check_support() const {
-  if (!root_.is_object()) fail("no JSON chunk");
-  const auto& needed = list(root_, "extensionsRequired");
-  if (!needed.empty()) fail(fmt::format("needs the extension {}, which is not supported", needed[0].dump()));
+void GltfDocument::load_buffers() {
+  for (const Json& buffer : list(root_, "buffers")) {
+    if (find(buffer, "uri") == nullptr) continue;
+    const auto [entry, is_new] = resolved_.try_emplace(text(buffer, "uri"));
+    if (!is_new) continue;
+    entry->second = resolve_uri(entry->first, path_);
+    total_size_ += entry->second.size();
+  }
 }
 
 const GltfDocument::Json* GltfDocument::find(const Json& object, const char* key) const {
@@ -160,14 +173,15 @@ const GltfDocument::Json& GltfDocument::element(const char* list_name, std::size
 Bytes GltfDocument::copy(const Json& owner, std::size_t count, std::size_t element_size) const {
   const std::size_t number = integer(owner, "bufferView");
   const Json& view = element("bufferViews", number);
-  const Json& buffer = element("buffers", integer(view, "buffer"));
-  if (find(buffer, "uri") != nullptr || integer(view, "buffer") != 0) {
-    fail("data outside the binary chunk, which is not supported");
-  }
+  const std::size_t buffer_number = integer(view, "buffer");
+  const Json& buffer = element("buffers", buffer_number);
+  const bool is_apart = find(buffer, "uri") != nullptr;
+  if (!is_apart && buffer_number != 0) fail(fmt::format("buffer {} has no data", buffer_number));
+  const Bytes& data = is_apart ? resolved_.at(text(buffer, "uri")) : binary_;
   const std::size_t buffer_size = integer(buffer, "byteLength");
-  if (buffer_size > binary_.size()) {
-    fail(fmt::format("a buffer of {} bytes, but the binary chunk has {}", buffer_size, binary_.size()));
-  }
+  if (buffer_size > data.size())
+    fail(fmt::format("a buffer of {} bytes, but {} has {}", buffer_size,
+                     is_apart ? shown_json(text(buffer, "uri")) : "the binary chunk", data.size()));
   const std::size_t start = integer(view, "byteOffset", 0);
   const std::size_t length = integer(view, "byteLength");
   if (start > buffer_size || length > buffer_size - start) {
@@ -185,7 +199,7 @@ Bytes GltfDocument::copy(const Json& owner, std::size_t count, std::size_t eleme
     fail(fmt::format("an accessor reaches out of buffer view {}", number));
   }
   Bytes bytes(count * element_size);
-  const std::uint8_t* from = binary_.data() + start + offset;
+  const std::uint8_t* from = data.data() + start + offset;
   for (std::size_t i = 0; i < count; ++i)
     std::memcpy(&bytes[i * element_size], from + i * stride, element_size);
   return bytes;
@@ -194,7 +208,7 @@ Bytes GltfDocument::copy(const Json& owner, std::size_t count, std::size_t eleme
 std::size_t GltfDocument::count(std::size_t accessor) const {
   const std::size_t count = integer(element("accessors", accessor), "count");
   // An accessor may stand for zeros that are not in the file; nothing else keeps their number sane.
-  if (count > file_size_) {
+  if (count > total_size_) {
     fail(fmt::format("accessor {} has {} elements, more than the file has bytes", accessor, count));
   }
   return count;
@@ -225,30 +239,55 @@ Bytes GltfDocument::packed(const Json& accessor, std::size_t element_size) const
   return bytes;
 }
 
-std::vector<Eigen::Vector3f> GltfDocument::vectors(std::size_t accessor) const {
+void GltfDocument::check_type(std::size_t accessor, const std::string& type, Numbers allowed) const {
   const Json& description = element("accessors", accessor);
-  if (text(description, "type") != "VEC3" || integer(description, "componentType") != kFloat) {
-    fail(fmt::format("accessor {} does not hold vectors of three floats", accessor));
+  const std::size_t component = integer(description, "componentType");
+  const bool may_be_plain = allowed == Numbers::quantised && is_quantised_;
+  const bool may_be_small = may_be_plain || (allowed == Numbers::normalised && is_normalised(description));
+  const bool is_small =
+      component == kByte || component == kUnsignedByte || component == kShort || component == kUnsignedShort;
+  if (text(description, "type") == type && (component == kFloat || (is_small && may_be_small))) return;
+  fail(fmt::format("accessor {} holds {} of component type {}, expected {} of floats{}", accessor,
+                   shown_json(text(description, "type")), component, type,
+                   allowed == Numbers::normalised ? " or normalised integers" : ""));
+}
+
+bool GltfDocument::is_normalised(const Json& accessor) const {
+  const Json* value = find(accessor, "normalized");
+  if (value != nullptr && !value->is_boolean()) fail("'normalized' is neither true nor false");
+  return value != nullptr && value->get<bool>();
+}
+
+std::vector<float> GltfDocument::reals(std::size_t accessor, const std::string& type, Numbers allowed) const {
+  check_type(accessor, type, allowed);
+  const Json& description = element("accessors", accessor);
+  const Component component{integer(description, "componentType"), is_normalised(description)};
+  const std::size_t width = components_of(type);
+  std::vector<float> numbers(count(accessor) * width);
+  const Bytes bytes = packed(description, width * component.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = component.at(&bytes[i * component.size()]);
+    if (!std::isfinite(numbers[i]))
+      fail(fmt::format("element {} of accessor {} is not finite", i / width, accessor));
   }
-  std::vector<Eigen::Vector3f> vectors(count(accessor));
-  const Bytes bytes = packed(description, 3 * sizeof(float));
-  for (std::size_t i = 0; i < vectors.size(); ++i) {
-    std::array<float, 3> xyz{};
-    std::memcpy(xyz.data(), &bytes[i * sizeof(xyz)], sizeof(xyz));
-    vectors[i] = Eigen::Vector3f(xyz[0], xyz[1], xyz[2]);
-    if (!vectors[i].allFinite()) fail(fmt::format("element {} of accessor {} is not finite", i, accessor));
-  }
+  return numbers;
+}
+
+std::vector<Eigen::Vector3f> GltfDocument::vectors(std::size_t accessor) const {
+  const std::vector<float> numbers = reals(accessor, "VEC3", Numbers::quantised);
+  std::vector<Eigen::Vector3f> vectors(numbers.size() / 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = Eigen::Vector3f(&numbers[3 * i]);
   return vectors;
 }
 
-std::vector<std::uint32_t> GltfDocument::indices(std::size_t accessor) const {
+std::vector<std::uint32_t> GltfDocument::indices(std::size_t accessor, const std::string& type) const {
   const Json& description = element("accessors", accessor);
   const std::size_t size = index_size(integer(description, "componentType"));
-  if (text(description, "type") != "SCALAR" || size == 0) {
+  if (text(description, "type") != type || size == 0) {
     fail(fmt::format("accessor {} does not hold unsigned integers", accessor));
   }
   count(accessor);
-  return unpack(packed(description, size), size);
+  return unpack(packed(description, components_of(type) * size), size);
 }
 
 }  // namespace pliant
