@@ -38,9 +38,10 @@ float3 ray_through(int u, int v, float4 camera) {
   return (float3)((u - camera.z) / camera.x, (v - camera.w) / camera.y, 1);
 }
 
-// Where a ray meets the triangle of the plane; rounding must not carry it out of the triangle.
-float depth_on(Plane plane, float3 ray) {
-  return fmin(fmax(plane.offset / dot(plane.normal, ray), plane.nearest), plane.farthest);
+// Where a ray meets the triangle of the plane, whose normal . ray is `facing`; rounding must not carry it out
+// of the triangle.
+float depth_on(Plane plane, float facing) {
+  return fmin(fmax(plane.offset / facing, plane.nearest), plane.farthest);
 }
 
 kernel void clear(global uint* nearest, global int* seen) {
@@ -91,11 +92,13 @@ void draw_placed(int index, Triangle t, long2 a, long2 b, long2 c, float4 camera
   long row_ab = area(a, b, corner), row_bc = area(b, c, corner), row_ca = area(c, a, corner);
   const long2 ab = (b - a) * SUBPIXELS, bc = (c - b) * SUBPIXELS, ca = (a - c) * SUBPIXELS;
   const Plane plane = plane_of(t);
+  const float slope_u = plane.normal.x / camera.x, slope_v = plane.normal.y / camera.y;
   for (int v = first_v; v <= last_v; ++v) {
     long on_ab = row_ab, on_bc = row_bc, on_ca = row_ca;
+    const float facing = slope_v * (v - camera.w) + plane.normal.z;
     for (int u = first_u; u <= last_u; ++u) {
       if ((on_ab | on_bc | on_ca) >= 0)
-        show(index, depth_on(plane, ray_through(u, v, camera)), v * size.x + u, pass, nearest, seen);
+        show(index, depth_on(plane, slope_u * (u - camera.z) + facing), v * size.x + u, pass, nearest, seen);
       on_ab -= ab.y;
       on_bc -= bc.y;
       on_ca -= ca.y;
@@ -123,7 +126,7 @@ void draw_across(int index, Triangle t, float4 camera, float near, int2 size, in
       if (any(shares < -tolerance) ||
           !(shares.x + shares.y + shares.z > tolerance.x + tolerance.y + tolerance.z))
         continue;
-      const float depth = depth_on(plane, ray);
+      const float depth = depth_on(plane, dot(plane.normal, ray));
       if (depth >= near) show(index, depth, v * size.x + u, pass, nearest, seen);
     }
   }
@@ -161,51 +164,69 @@ float2 shares_of(Triangle t, float3 ray) {
 
 float3 blend(Triangle t, float2 shares) { return t.a + shares.x * (t.b - t.a) + shares.y * (t.c - t.a); }
 
+// The pixels of a work-item: WIDTH of them in a row, from u on, fewer at its end.
+typedef struct {
+  int u, v, count;
+} Run;
+
+Run run_of(int2 size) {
+  const int runs = (size.x + WIDTH - 1) / WIDTH;
+  Run run;
+  run.v = get_global_id(0) / runs;
+  run.u = (get_global_id(0) - run.v * runs) * WIDTH;
+  run.count = run.v < size.y ? min(size.x - run.u, WIDTH) : 0;
+  return run;
+}
+
 // Gives each pixel its depth, 0 where nothing is seen, and the place of its point in the triangle.
 kernel void resolve(global const int* triangles, global const float* points, float4 camera, int2 size,
                     global const uint* nearest, global const int* seen, global float* depth,
                     global float* shares) {
-  const int pixel = get_global_id(0);
-  if (pixel >= size.x * size.y) return;
-  const int triangle = seen[pixel];
-  depth[pixel] = triangle < 0 ? 0.0f : as_float(nearest[pixel]);
-  float2 place = 0;
-  if (triangle >= 0)
-    place = shares_of(triangle_of(vload3(triangle, triangles), points),
-                      ray_through(pixel % size.x, pixel / size.x, camera));
-  vstore2(place, pixel, shares);
+  const Run run = run_of(size);
+  for (int u = run.u; u < run.u + run.count; ++u) {
+    const int pixel = run.v * size.x + u, triangle = seen[pixel];
+    depth[pixel] = triangle < 0 ? 0.0f : as_float(nearest[pixel]);
+    float2 place = 0;
+    if (triangle >= 0)
+      place = shares_of(triangle_of(vload3(triangle, triangles), points), ray_through(u, run.v, camera));
+    vstore2(place, pixel, shares);
+  }
 }
 
 // `values`, three a vertex, at the points seen; 0 where nothing is.
-kernel void interpolate(global const int* triangles, global const float* values, int count,
+kernel void interpolate(global const int* triangles, global const float* values, int2 size,
                         global const int* seen, global const float* shares, global float* interpolated) {
-  const int pixel = get_global_id(0);
-  if (pixel >= count) return;
-  float3 value = 0;
-  if (seen[pixel] >= 0)
-    value = blend(triangle_of(vload3(seen[pixel], triangles), values), vload2(pixel, shares));
-  vstore3(value, pixel, interpolated);
+  const Run run = run_of(size);
+  for (int u = run.u; u < run.u + run.count; ++u) {
+    const int pixel = run.v * size.x + u;
+    float3 value = 0;
+    if (seen[pixel] >= 0)
+      value = blend(triangle_of(vload3(seen[pixel], triangles), values), vload2(pixel, shares));
+    vstore3(value, pixel, interpolated);
+  }
 }
 
-// Whether the z-buffer of a view shows a point of the triangle of a plane: see is_shown() of
-// true_motion.cpp.
+// Whether the z-buffer of a view shows a point of a surface with this normal: see true_motion.h. The four
+// pixels around it in turn: left and right of the upper row, then of the lower.
 bool is_shown(float3 point, float3 normal, float2 at, float4 camera, int2 size, global const float* depth) {
-  const float2 rounded = rint(at);
-  if (!(rounded.x >= 0 && rounded.y >= 0 && rounded.x < size.x && rounded.y < size.y)) return false;
-  const int2 pixel = convert_int2(rounded), first = convert_int2(floor(at));
-  const float footprint = point.z / fmin(camera.x, camera.y);
+  const float2 corner = floor(at), inside = at - corner;
+  if (!(at.x >= -0.5f && at.y >= -0.5f && at.x <= size.x - 0.5f && at.y <= size.y - 0.5f)) return false;
+  const int2 first = convert_int2(corner);
+  const int4 u = first.x + (int4)(0, 1, 0, 1), v = first.y + (int4)(0, 0, 1, 1);
+  const int4 in_image = u >= 0 && v >= 0 && u < size.x && v < size.y;
+  const int4 pixel = select((int4)(0), v * size.x + u, in_image);
+  const float4 values = {depth[pixel.x], depth[pixel.y], depth[pixel.z], depth[pixel.w]};
+  const float4 shown = select((float4)(0), values, in_image);
+  const float4 facing = normal.x / camera.x * (convert_float4(u) - camera.z) +
+                        normal.y / camera.y * (convert_float4(v) - camera.w) + normal.z;
+  const float footprint = point.z / fmin(camera.x, camera.y), reach = STEEPEST_SLOPE * footprint;
+  const float4 expected = fmin(fmax(dot(normal, point) / facing, point.z - reach), point.z + reach);
   const float tolerance = NEAREST_HIDING + footprint;
-  for (int v = max(first.y, 0); v <= min(first.y + 1, size.y - 1); ++v) {
-    for (int u = max(first.x, 0); u <= min(first.x + 1, size.x - 1); ++u) {
-      const float on_plane = dot(normal, point) / dot(normal, ray_through(u, v, camera));
-      const float reach = STEEPEST_SLOPE * footprint;
-      const float expected = fmin(fmax(on_plane, point.z - reach), point.z + reach);
-      const float shown = depth[v * size.x + u];
-      if (shown > 0 && shown < expected - tolerance) return false;
-      if (u == pixel.x && v == pixel.y && !(shown > 0 && shown < expected + tolerance)) return false;
-    }
-  }
-  return true;
+  const int4 before = shown > 0 && shown < expected - tolerance;
+  const int4 same = shown > 0 && shown < expected + tolerance;
+  const bool is_right = inside.x > 0.5f, is_lower = inside.y > 0.5f;
+  const int is_same = is_lower ? (is_right ? same.w : same.z) : (is_right ? same.y : same.x);
+  return is_same && !any(before);
 }
 
 // The motion of the points that a view shows while the vertices go to `points`, which another view (`depth`,
@@ -214,23 +235,24 @@ kernel void move(global const int* triangles, int2 size, float4 camera, global c
                  global const float* shares, global const float* from_depth, global const float* points,
                  int2 target_size, float4 target_camera, global const float* depth, global float* scene_flow,
                  global float* optical_flow, global uchar* visible) {
-  const int pixel = get_global_id(0);
-  if (pixel >= size.x * size.y) return;
-  float3 motion = NAN;
-  float2 shift = NAN;
-  bool is_visible = false;
-  if (seen[pixel] >= 0) {
-    const Triangle t = triangle_of(vload3(seen[pixel], triangles), points);
-    const int u = pixel % size.x, v = pixel / size.x;
-    const float3 moved = blend(t, vload2(pixel, shares));
-    motion = moved - from_depth[pixel] * ray_through(u, v, camera);
-    if (moved.z > 0) {
-      const float2 at = moved.xy / moved.z * target_camera.xy + target_camera.zw;
-      shift = at - (float2)(u, v);
-      is_visible = is_shown(moved, plane_of(t).normal, at, target_camera, target_size, depth);
+  const Run run = run_of(size);
+  for (int u = run.u; u < run.u + run.count; ++u) {
+    const int pixel = run.v * size.x + u;
+    float3 motion = NAN;
+    float2 shift = NAN;
+    bool is_visible = false;
+    if (seen[pixel] >= 0) {
+      const Triangle t = triangle_of(vload3(seen[pixel], triangles), points);
+      const float3 moved = blend(t, vload2(pixel, shares));
+      motion = moved - from_depth[pixel] * ray_through(u, run.v, camera);
+      if (moved.z > 0) {
+        const float2 at = moved.xy / moved.z * target_camera.xy + target_camera.zw;
+        shift = at - (float2)(u, run.v);
+        is_visible = is_shown(moved, cross(t.b - t.a, t.c - t.a), at, target_camera, target_size, depth);
+      }
     }
+    vstore3(motion, pixel, scene_flow);
+    vstore2(shift, pixel, optical_flow);
+    visible[pixel] = is_visible ? 1 : 0;
   }
-  vstore3(motion, pixel, scene_flow);
-  vstore2(shift, pixel, optical_flow);
-  visible[pixel] = is_visible ? 1 : 0;
 }

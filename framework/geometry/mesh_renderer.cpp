@@ -39,6 +39,12 @@ std::size_t pixels_of(const Camera& camera) {
   return static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
 }
 
+/// Work-items that take `device.width()` pixels of a row each.
+std::size_t runs_of(const Device& device, const Camera& camera) {
+  const int runs = (camera.width + device.width() - 1) / device.width();
+  return static_cast<std::size_t>(runs) * static_cast<std::size_t>(camera.height);
+}
+
 template <class Value, class Pixel>
 Image<Pixel> image_of(const Array<Value>& values, const Camera& camera, const Pixel& none) {
   Image<Pixel> image(camera.width, camera.height, none);
@@ -82,9 +88,9 @@ MeshView MeshRenderer::render(const Array<float>& vertices, const Camera& camera
     device_.run(stage, draw, count, 16, triangles_.device(device_), static_cast<cl_int>(count),
                 vertices.device(device_), places, pinhole(camera), near, size_of(camera), pass, nearest,
                 seen);
-  device_.run(stage, resolve, pixels, 64, triangles_.device(device_), vertices.device(device_),
-              pinhole(camera), size_of(camera), nearest, seen, view.depth.write_device(device_),
-              view.shares.write_device(device_));
+  device_.run(stage, resolve, runs_of(device_, camera), 16, triangles_.device(device_),
+              vertices.device(device_), pinhole(camera), size_of(camera), nearest, seen,
+              view.depth.write_device(device_), view.shares.write_device(device_));
   return view;
 }
 
@@ -93,9 +99,9 @@ Array<float> MeshRenderer::interpolate(const MeshView& view, const Array<float>&
   const std::size_t pixels = pixels_of(view.camera);
   Array<float> interpolated(3 * pixels);
   auto kernel = kernel_of(device_, "interpolate");
-  device_.run(stage, kernel, pixels, 64, triangles_.device(device_), values.device(device_),
-              static_cast<cl_int>(pixels), view.triangles.device(device_), view.shares.device(device_),
-              interpolated.write_device(device_));
+  device_.run(stage, kernel, runs_of(device_, view.camera), 16, triangles_.device(device_),
+              values.device(device_), size_of(view.camera), view.triangles.device(device_),
+              view.shares.device(device_), interpolated.write_device(device_));
   return interpolated;
 }
 
@@ -105,11 +111,12 @@ DeviceMotion MeshRenderer::move(const MeshView& from, const Array<float>& to_ver
   const std::size_t pixels = pixels_of(from.camera);
   DeviceMotion motion{Array<float>(3 * pixels), Array<float>(2 * pixels), Array<cl_uchar>(pixels)};
   auto kernel = kernel_of(device_, "move");
-  device_.run(stage, kernel, pixels, 64, triangles_.device(device_), size_of(from.camera),
-              pinhole(from.camera), from.triangles.device(device_), from.shares.device(device_),
-              from.depth.device(device_), to_vertices.device(device_), size_of(to.camera), pinhole(to.camera),
-              to.depth.device(device_), motion.scene_flow.write_device(device_),
-              motion.optical_flow.write_device(device_), motion.visible.write_device(device_));
+  device_.run(stage, kernel, runs_of(device_, from.camera), 16, triangles_.device(device_),
+              size_of(from.camera), pinhole(from.camera), from.triangles.device(device_),
+              from.shares.device(device_), from.depth.device(device_), to_vertices.device(device_),
+              size_of(to.camera), pinhole(to.camera), to.depth.device(device_),
+              motion.scene_flow.write_device(device_), motion.optical_flow.write_device(device_),
+              motion.visible.write_device(device_));
   return motion;
 }
 
