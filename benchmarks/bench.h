@@ -35,5 +35,6 @@ void write_json(const Options& options, const nlohmann::ordered_json& measured);
 int run_solver_mode(const Options& options);
 int run_kernels_mode(const Options& options);
 int run_pair_mode(const Options& options);
+int run_render_mode(const Options& options);
 
 }  // namespace pliant::bench

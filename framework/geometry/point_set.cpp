@@ -20,6 +20,14 @@ Array<float> flatten(const std::vector<Eigen::Vector3f>& vectors) {
   return Array<float>(std::vector<float>(values, values + 3 * vectors.size()));
 }
 
+Array<float> flatten(const std::vector<Eigen::Vector3d>& vectors) {
+  std::vector<float> values;
+  values.reserve(3 * vectors.size());
+  for (const Eigen::Vector3d& vector : vectors)
+    for (const double value : vector) values.push_back(static_cast<float>(value));
+  return Array<float>(std::move(values));
+}
+
 std::vector<Eigen::Vector3f> unflatten(const Array<float>& values) {
   std::vector<Eigen::Vector3f> vectors(values.size() / 3);
   if (!vectors.empty()) values.copy_to(vectors.front().data());

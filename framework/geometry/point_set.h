@@ -15,6 +15,7 @@ struct PointSet {
 
 /// Vectors as x y z in turn, and back. Reading vectors that a device wrote waits for it.
 Array<float> flatten(const std::vector<Eigen::Vector3f>& vectors);
+Array<float> flatten(const std::vector<Eigen::Vector3d>& vectors);
 std::vector<Eigen::Vector3f> unflatten(const Array<float>& values);
 
 /// The points of a set, or of a map, at some indices, moved rigidly. Only enqueues.

@@ -107,8 +107,8 @@ TEST_F(GroupsParameter, TheSchemaAndTheListingSayAsMuch) {
   EXPECT_EQ(keys["additionalProperties"]["anyOf"][0]["properties"]["at"]["minimum"], 0);
   EXPECT_EQ(schema["else"]["required"], std::vector<std::string>{"keys"});
   const std::string text = describe({"data", "scene", "A scene", table_});
-  EXPECT_THAT(text, HasSubstr("keys                   map of sections"));
-  EXPECT_THAT(text, HasSubstr("keys.NAME.camera.turn  number"));
+  EXPECT_THAT(text, HasSubstr("keys                     map of sections"));
+  EXPECT_THAT(text, HasSubstr("keys.NAME.camera.turn    number"));
 }
 
 }  // namespace

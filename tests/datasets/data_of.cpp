@@ -25,13 +25,13 @@ std::unique_ptr<FrameSource> data_of(const std::string& section) {
   return registry.make<FrameSource>(experiment.values.section("data"));
 }
 
-Device& test_device() {
+Device& shared_device() {
   static Device device;
   return device;
 }
 
 LoadedPair load(const FrameSource& source, std::uint64_t seed) {
-  const auto stream = source.open(test_device(), seed);
+  const auto stream = source.open(shared_device(), seed);
   return {read_pair(*stream), stream->truth(2)};
 }
 

@@ -11,7 +11,7 @@ namespace pliant::testing {
 std::unique_ptr<FrameSource> data_of(const std::string& section);
 
 /// The device that the tests of a program share.
-Device& test_device();
+Device& shared_device();
 
 /// The first two frames of a source and what is known of them.
 struct LoadedPair : FramePair {

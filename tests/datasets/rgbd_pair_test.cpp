@@ -250,7 +250,7 @@ TEST_F(RgbdPairWithColorCamera, CarriesColourToTheDepth) {
 }
 
 TEST_F(RgbdPairWithColorCamera, GivesTheStreamAsItWasSeen) {
-  const auto stream = RgbdPair(settings_).open(test_device(), 0);
+  const auto stream = RgbdPair(settings_).open(testing::shared_device(), 0);
   EXPECT_EQ(stream->rig().depth.width, kWidth);
   EXPECT_EQ(stream->rig().color.value().width, 2 * kWidth);
   EXPECT_EQ(stream->rig().color_from_depth.translation(), Eigen::Vector3d(-50, 0, 0));

@@ -15,6 +15,7 @@ namespace {
 
 using testing::config_error_of;
 using testing::data_of;
+using testing::shared_device;
 using ::testing::HasSubstr;
 using testing::load;
 using testing::LoadedPair;
@@ -152,7 +153,7 @@ const std::string small = "image_width: 64, image_height: 48, focal_length: 52.5
 
 TEST(SyntheticSheetStream, OfTwoFramesIsThePair) {
   const auto source = data_of("{type: synthetic_sheet, noise: 1, " + small + "}");
-  const auto frames = frames_of(*source->open(test_device(), 3));
+  const auto frames = frames_of(*source->open(shared_device(), 3));
   const LoadedPair pair = load(*source, 3);
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0].depth.pixels(), pair.source.depth.pixels());
@@ -161,9 +162,9 @@ TEST(SyntheticSheetStream, OfTwoFramesIsThePair) {
 
 TEST(SyntheticSheetStream, BendsFromFlatToTheWhole) {
   const auto short_one =
-      frames_of(*data_of("{type: synthetic_sheet, " + small + "}")->open(test_device(), 1));
+      frames_of(*data_of("{type: synthetic_sheet, " + small + "}")->open(shared_device(), 1));
   const auto frames =
-      frames_of(*data_of("{type: synthetic_sheet, frames: 7, " + small + "}")->open(test_device(), 1));
+      frames_of(*data_of("{type: synthetic_sheet, frames: 7, " + small + "}")->open(shared_device(), 1));
   ASSERT_EQ(frames.size(), 7U);
   EXPECT_EQ(frames.front().depth.pixels(), short_one.front().depth.pixels());
   EXPECT_EQ(frames.back().depth.pixels(), short_one.back().depth.pixels());
@@ -177,7 +178,7 @@ TEST(SyntheticSheetStream, BendsFromFlatToTheWhole) {
 }
 
 TEST(SyntheticSheetStream, KnowsTheMotionFromTheFirstFrameToEach) {
-  const auto stream = data_of("{type: synthetic_sheet, frames: 4, " + small + "}")->open(test_device(), 1);
+  const auto stream = data_of("{type: synthetic_sheet, frames: 4, " + small + "}")->open(shared_device(), 1);
   const PairTruth half = stream->truth(3).value();
   const PairTruth whole = stream->truth(4).value();
   const auto frames = frames_of(*stream);
@@ -191,7 +192,7 @@ TEST(SyntheticSheetStream, KnowsTheMotionFromTheFirstFrameToEach) {
 // A million frames at once would not fit into any memory.
 TEST(SyntheticSheetStream, MakesFramesWhenTheyAreAskedFor) {
   const auto stream =
-      data_of("{type: synthetic_sheet, frames: 1000000, " + small + "}")->open(test_device(), 1);
+      data_of("{type: synthetic_sheet, frames: 1000000, " + small + "}")->open(shared_device(), 1);
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(stream->next());
 }
 
