@@ -5,13 +5,18 @@ function(pliant_embed TARGET)
   foreach(FILE ${ARGN})
     cmake_path(ABSOLUTE_PATH FILE BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE OUTPUT_VARIABLE INPUT)
     cmake_path(RELATIVE_PATH INPUT BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE RELATIVE)
-    set(OUTPUT ${PROJECT_BINARY_DIR}/embedded/${RELATIVE}.embed.h)
-    set(SCRIPT ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/Embed.cmake)
-    add_custom_command(OUTPUT ${OUTPUT}
-      COMMAND ${CMAKE_COMMAND} -DINPUT=${INPUT} -DOUTPUT=${OUTPUT} -DRELATIVE=${RELATIVE} -P ${SCRIPT}
-      DEPENDS ${INPUT} ${SCRIPT}
-      COMMENT "Embedding ${RELATIVE}" VERBATIM)
-    target_sources(${TARGET} PRIVATE ${OUTPUT})
+    pliant_embed_as(${TARGET} ${INPUT} ${RELATIVE})
   endforeach()
+endfunction()
+
+# pliant_embed_as(TARGET INPUT RELATIVE): the same of a file that the build makes, as if it were at RELATIVE.
+function(pliant_embed_as TARGET INPUT RELATIVE)
+  set(OUTPUT ${PROJECT_BINARY_DIR}/embedded/${RELATIVE}.embed.h)
+  set(SCRIPT ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/Embed.cmake)
+  add_custom_command(OUTPUT ${OUTPUT}
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${INPUT} -DOUTPUT=${OUTPUT} -DRELATIVE=${RELATIVE} -P ${SCRIPT}
+    DEPENDS ${INPUT} ${SCRIPT}
+    COMMENT "Embedding ${RELATIVE}" VERBATIM)
+  target_sources(${TARGET} PRIVATE ${OUTPUT})
   target_include_directories(${TARGET} PRIVATE ${PROJECT_BINARY_DIR}/embedded)
 endfunction()

@@ -16,8 +16,8 @@
 namespace pliant {
 namespace {
 
-constexpr double width = 720;
-constexpr double plot_height = 320;
+constexpr double width = 600;
+constexpr double plot_height = 280;
 constexpr double right = 18;
 constexpr double letter = 6.7;  ///< mean width at the size of the labels
 constexpr double row = 22;      ///< of the legend
@@ -78,8 +78,8 @@ class Drawing {
   explicit Drawing(const Chart& chart)
       : chart_(chart),
         labels_(chart.kind == Chart::Kind::lines ? std::vector<std::string>{} : labels_of(chart)),
-        y_(axis_around(extents(), is_log(), chart.kind != Chart::Kind::lines)),
-        x_(axis_around(places(), chart.log_x)) {
+        y_(y_axis_of(chart)),
+        x_(x_axis_of(chart)) {
     double widest = 0;
     for (const double tick : y_.ticks) widest = std::max(widest, text_width(tick_label(tick)));
     left_ = widest + 44;
@@ -95,35 +95,6 @@ class Drawing {
   }
 
  private:
-  bool is_log() const { return chart_.log_y && chart_.kind != Chart::Kind::stacked_bars; }
-
-  /// All heights that must be seen.
-  std::vector<double> extents() const {
-    if (chart_.kind == Chart::Kind::stacked_bars) return heights_of_stacks();
-    std::vector<double> values;
-    for (const auto& series : chart_.series)
-      for (const auto& point : series.points)
-        values.insert(values.end(),
-                      {point.value, point.value + point.spread,
-                       is_log() && point.value <= point.spread ? point.value : point.value - point.spread});
-    return values;
-  }
-
-  std::vector<double> heights_of_stacks() const {
-    std::vector<double> heights(labels_.size(), 0);
-    for (const auto& series : chart_.series)
-      for (const auto& point : series.points)
-        if (std::isfinite(point.value)) heights[slot_of(point)] += point.value;
-    return heights;
-  }
-
-  std::vector<double> places() const {
-    std::vector<double> values;
-    for (const auto& series : chart_.series)
-      for (const auto& point : series.points) values.push_back(point.x);
-    return values;
-  }
-
   std::size_t slot_of(const Chart::Point& point) const {
     return static_cast<std::size_t>(std::find(labels_.begin(), labels_.end(), point.label) - labels_.begin());
   }
@@ -138,7 +109,7 @@ class Drawing {
   double x(double value) const { return left_ + x_.place(value) * (width - left_ - right); }
   double y(double value) const { return top_ + (1 - y_.place(value)) * plot_height; }
   /// The foot of bars.
-  double floor() const { return is_log() ? top_ + plot_height : y(0); }
+  double floor() const { return y_.is_log ? top_ + plot_height : y(0); }
 
   void lay_out_legend() {
     double at = left_;
@@ -229,7 +200,7 @@ class Drawing {
     if (!(point.spread > 0) || !std::isfinite(point.spread)) return "";
     const double high = y(point.value + point.spread);
     const double low =
-        is_log() && point.value <= point.spread ? top_ + plot_height : y(point.value - point.spread);
+        y_.is_log && point.value <= point.spread ? top_ + plot_height : y(point.value - point.spread);
     return line("whisker", at, low, at, high, color(series), series) +
            line("whisker", at - half, high, at + half, high, color(series), series) +
            line("whisker", at - half, low, at + half, low, color(series), series);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pliant {
 namespace {
@@ -29,6 +30,25 @@ ordered_json series_json(const Chart::Series& series) {
                       {"spread", point.spread},
                       {"text", value_text(point)}});
   return {{"name", series.name}, {"points", points}};
+}
+
+bool is_stacked(const Chart& chart) { return chart.kind == Chart::Kind::stacked_bars; }
+
+/// All heights that must be seen.
+std::vector<double> extents(const Chart& chart) {
+  if (is_stacked(chart)) return heights_of_stacks(chart);
+  std::vector<double> values;
+  for (const auto& series : chart.series)
+    for (const auto& point : series.points)
+      values.insert(values.end(), {point.value, point.value - point.spread, point.value + point.spread});
+  return values;
+}
+
+ordered_json axis_json(const ChartAxis& axis, const std::string& label) {
+  std::vector<std::string> labels;
+  for (const double tick : axis.ticks) labels.push_back(tick_label(tick));
+  return {{"label", label},    {"is_log", axis.is_log}, {"low", axis.low},
+          {"high", axis.high}, {"ticks", axis.ticks},   {"labels", labels}};
 }
 
 /// The places at the axis, each once: over numbers by the number, over words as they come.
@@ -63,6 +83,28 @@ std::vector<std::string> labels_of(const Chart& chart) {
     for (const auto& point : series.points)
       if (std::find(labels.begin(), labels.end(), point.label) == labels.end()) labels.push_back(point.label);
   return labels;
+}
+
+std::vector<double> heights_of_stacks(const Chart& chart) {
+  const std::vector<std::string> labels = labels_of(chart);
+  std::vector<double> heights(labels.size(), 0);
+  for (const auto& series : chart.series)
+    for (const auto& point : series.points)
+      if (std::isfinite(point.value))
+        heights[static_cast<std::size_t>(std::find(labels.begin(), labels.end(), point.label) -
+                                         labels.begin())] += point.value;
+  return heights;
+}
+
+ChartAxis y_axis_of(const Chart& chart) {
+  return axis_around(extents(chart), chart.log_y && !is_stacked(chart), chart.kind != Chart::Kind::lines);
+}
+
+ChartAxis x_axis_of(const Chart& chart) {
+  std::vector<double> places;
+  for (const auto& series : chart.series)
+    for (const auto& point : series.points) places.push_back(point.x);
+  return axis_around(places, chart.log_x);
 }
 
 std::string value_text(const Chart::Point& point) {
@@ -100,8 +142,11 @@ Table values_table(const Study& study) {
 ordered_json chart_json(const Chart& chart) {
   ordered_json series = ordered_json::array();
   for (const auto& one : chart.series) series.push_back(series_json(one));
-  return {{"kind", name_of(chart.kind)}, {"x_label", chart.x_label}, {"y_label", chart.y_label},
-          {"log_x", chart.log_x},        {"log_y", chart.log_y},     {"series", series}};
+  return {{"kind", name_of(chart.kind)},
+          {"x", axis_json(x_axis_of(chart), chart.x_label)},
+          {"y", axis_json(y_axis_of(chart), chart.y_label)},
+          {"labels", labels_of(chart)},
+          {"series", series}};
 }
 
 }  // namespace pliant

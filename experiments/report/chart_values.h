@@ -4,12 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "experiments/report/chart_axis.h"
 #include "experiments/report/study.h"
 
 namespace pliant {
 
 /// The words at the axis of bars: of all series, in the order in which they come.
 std::vector<std::string> labels_of(const Chart& chart);
+
+/// How high the stacks are, in the order of labels_of.
+std::vector<double> heights_of_stacks(const Chart& chart);
+
+/// The axis over which values lie, and the one over numbers, `Point::x`.
+ChartAxis y_axis_of(const Chart& chart);
+ChartAxis x_axis_of(const Chart& chart);
 
 /// "1.25", or "1.25 ± 0.1 (10 runs)" where a spread is known.
 std::string value_text(const Chart::Point& point);
