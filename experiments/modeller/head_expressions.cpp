@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/modeller/head.h"
+
+namespace pliant {
+namespace {
+
+using Point = Eigen::Vector3d;
+
+double away_from_middle(const Point& p) { return std::abs(p.x()); }
+
+/// How much of a turn of the jaw a point takes: all of the lower lip and the chin, nothing of the upper lip.
+/// Between the lips that is a step; beyond the corners of the mouth the cheek takes it up.
+ScalarField jaw_share(const HeadMeasures& head) {
+  const Point mouth = head.mouth;
+  const ScalarField aside = rise(away_from_middle, 6, 32);
+  const ScalarField behind = rise([](const Point& p) { return -p.z(); }, -72, -45);
+  const ScalarField below = [=](const Point& p) {
+    const double width = 1.5 + 24 * std::max(aside(p), behind(p));
+    return (mouth.y() - p.y()) / width;
+  };
+  return rise(below, -1, 1) * rise(coordinate(2), -5, 50) * rise(coordinate(1), -150, -112);
+}
+
+VectorField smile(const HeadMeasures& head) {
+  return bump(head.corner, 17) * shift({6, 6, -5}) + bump({41, -34, 66}, 19) * shift({1, 4, 3.5}) +
+         bump(head.corner + Point(-12, 0, 8), 12) * shift({1, -1, -2});
+}
+
+}  // namespace
+
+VectorField mouth_closing(const HeadMeasures& head) {
+  return inverse(rise(away_from_middle, head.corner.x() - 10, head.corner.x() + 2)) *
+         bump(head.mouth, {1e3, 5.5, 22}) * stretch(head.mouth, {0, -0.92, 0});
+}
+
+std::vector<MorphTarget> head_targets(const HeadMeasures& head, const std::vector<Point>& points) {
+  const Point& mouth = head.mouth;
+  const VectorField cheeks = both_sides(bump({50, -58, 52}, 23) * shift({9, 0, 5.5})) +
+                             bump(mouth, {20, 14, 15}) * shift({0, 0, -1});
+  const VectorField kiss = bump(mouth, {28, 17, 25}) * stretch(mouth, {-0.35, 0, 0}) +
+                           bump(mouth, {17, 14, 22}) * shift({0, 0, 9}) +
+                           both_sides(bump({40, -60, 60}, 18) * shift({-2, 0, -2}));
+  const VectorField open_mouth = jaw_share(head) * turn({0, -10, 5}, Point::UnitX(), 13);
+  const VectorField angry = both_sides(bump({15, 15, 85}, {15, 12, 20}) * shift({-2.5, -5, 1}) +
+                                       bump({13, 8, 80}, {9, 9, 15}) * shift({-1.5, -1, 2}) +
+                                       bump(head.corner, 14) * shift({-1, -4, 0}) +
+                                       bump(head.nose_tip + Point(11, -3, -11), 9) * shift({1.5, 2.5, 0}));
+  return {target("smile_left", smile(head), points), target("smile_right", mirrored(smile(head)), points),
+          target("cheeks", cheeks, points),          target("kiss", kiss, points),
+          target("open_mouth", open_mouth, points),  target("angry", angry, points)};
+}
+
+std::vector<NamedPose> head_poses() {
+  return {
+      {"smile",
+       "The corners of the mouth go up and back, the cheeks rise",
+       {{"smile_left", 1}, {"smile_right", 1}}},
+      {"cheeks", "Both cheeks inflated", {{"cheeks", 1}}},
+      {"kiss", "The lips narrow and come forward", {{"kiss", 1}}},
+      {"open_mouth", "The jaw drops and the lips part", {{"open_mouth", 1}}},
+      {"angry", "The brows go down and together", {{"angry", 1}}},
+  };
+}
+
+}  // namespace pliant
