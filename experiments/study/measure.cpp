@@ -11,7 +11,8 @@ namespace pliant {
 std::vector<Parameter> Measure::rows() {
   return {
       text("value").doc("a formula over the numbers of a run in result.json, as in 1000 / time_ms.total"),
-      words("where").optional().doc("only of the runs that have AXIS=VALUE, as in [method=ED]"),
+      words("where").optional().doc(
+          "only of the runs that have AXIS=VALUE, as in [method=ED]; Ad* takes what begins so"),
   };
 }
 

@@ -20,6 +20,12 @@ void add_numbers(const ordered_json& json, const std::string& path, Numbers& num
     add_numbers(value, path.empty() ? key : path + "." + key, numbers);
 }
 
+/// Whether a value is the wanted one, whose last letter may be "*" for any end.
+bool is_wanted(const std::string& value, const std::string& wanted) {
+  if (wanted.empty() || wanted.back() != '*') return value == wanted;
+  return value.starts_with(wanted.substr(0, wanted.size() - 1));
+}
+
 std::vector<std::string> axes_of(const std::vector<RunRow>& rows) {
   std::vector<std::string> axes;
   for (const RunRow& row : rows)
@@ -53,7 +59,8 @@ RowFilter::RowFilter(const std::vector<std::string>& conditions, const std::vect
           fmt::format("{}: '{}' in 'where'; expected AXIS=VALUE, as in method=ED", place, condition));
     const SweptValue wanted{condition.substr(0, equals), condition.substr(equals + 1)};
     const auto values = values_on(wanted.name, rows, place);
-    if (std::find(values.begin(), values.end(), wanted.value) == values.end())
+    if (std::none_of(values.begin(), values.end(),
+                     [&](const auto& value) { return is_wanted(value, wanted.value); }))
       throw ConfigError(fmt::format("{}: no run has '{}'; expected one of {}{}", place, condition,
                                     fmt::join(values, ", "), suggestion(wanted.value, values)));
     conditions_.push_back(wanted);
@@ -61,8 +68,10 @@ RowFilter::RowFilter(const std::vector<std::string>& conditions, const std::vect
 }
 
 bool RowFilter::takes(const RunRow& row) const {
-  return std::all_of(conditions_.begin(), conditions_.end(),
-                     [&](const SweptValue& wanted) { return row.on(wanted.name) == wanted.value; });
+  return std::all_of(conditions_.begin(), conditions_.end(), [&](const SweptValue& wanted) {
+    const auto value = row.on(wanted.name);
+    return value && is_wanted(*value, wanted.value);
+  });
 }
 
 std::vector<std::string> values_on(const std::string& axis, const std::vector<RunRow>& rows,

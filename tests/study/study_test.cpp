@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "experiments/study/study_section.h"
@@ -49,6 +50,21 @@ TEST(RunRow, TellsAxesAndNumbers) {
   EXPECT_EQ(row.on("k"), "4");
   EXPECT_EQ(row.on("seed"), std::nullopt);
   EXPECT_THAT(row.numbers, ElementsAre(testing::Pair("a.b", 2)));
+}
+
+TEST(RowFilter, TakesWhatMeetsAllConditions) {
+  const std::vector<RunRow> rows = runs();
+  const auto taken = [&](const std::vector<std::string>& where) {
+    const RowFilter filter(where, rows, "here");
+    return std::count_if(rows.begin(), rows.end(), [&](const RunRow& row) { return filter.takes(row); });
+  };
+  EXPECT_EQ(taken({}), 8);
+  EXPECT_EQ(taken({"method=ED"}), 4);
+  EXPECT_EQ(taken({"method=ED", "seed=2"}), 2);
+  EXPECT_EQ(taken({"method=Ad*"}), 4);
+  EXPECT_EQ(taken({"method=*", "set=1"}), 4);
+  EXPECT_THROW(taken({"method=E"}), ConfigError);
+  EXPECT_THROW(taken({"method=X*"}), ConfigError);
 }
 
 TEST(StudyChart, HasThePointsOfASeriesOverAnAxis) {
