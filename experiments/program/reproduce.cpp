@@ -148,29 +148,27 @@ class Reproduction {
   /// Makes an experiment; what of it fails is told in its study.
   Study study(const Planned& planned, ResultFolder& result, TimeLeft& time) {
     const fs::path folder = result.unfinished() / planned.item.name;
-    try {
-      ProgressLine line;
-      const ProgressSink sink = line.sink();
-      const ExperimentResult made =
-          run_experiment(*planned.task, *planned.plan, folder, workbench_, time.counting(sink), {0, true});
-      line.clear();
-      result.keep();
-      are_all_failed_ = false;
-      note_failure(made);
-      return study_of(planned, made, folder);
-    } catch (const Error& error) {
-      note_failure(std::current_exception());
-      return {planned.item.name,
-              planned.item.title.empty() ? planned.item.name : planned.item.title,
-              "",
-              {},
-              {},
-              {},
-              {},
-              {fmt::format("Failed: {}", error.what())},
-              "",
-              {}};
-    }
+    ProgressLine line;
+    const ProgressSink sink = line.sink();
+    const ExperimentResult made = run_experiment(*planned.task, *planned.plan, folder, workbench_,
+                                                 time.counting(sink), {.repeats = 0, .is_one_of_many = true});
+    line.clear();
+    note_failure(made);
+    if (made.runs.empty()) return failed(planned.item, made);
+    result.keep();
+    are_all_failed_ = false;
+    return study_of(planned, made, folder);
+  }
+
+  static Study failed(const Item& item, const ExperimentResult& made) {
+    std::vector<std::string> notes;
+    for (const auto& run : made.failed) notes.push_back(fmt::format("{} failed: {}", run.name, run.message));
+    return note_of(item, notes);
+  }
+
+  static Study note_of(const Item& item, std::vector<std::string> notes) {
+    return {item.name, item.title.empty() ? item.name : item.title, "", {}, {}, {}, {}, std::move(notes), "",
+            {}};
   }
 
   Study study_of(const Planned& planned, const ExperimentResult& made, const fs::path& folder) {
@@ -187,12 +185,8 @@ class Reproduction {
     try {
       pliant::check_ends(made);
     } catch (const Error&) {
-      note_failure(std::current_exception());
+      if (!failure_) failure_ = std::current_exception();
     }
-  }
-
-  void note_failure(const std::exception_ptr& failure) {
-    if (!failure_) failure_ = failure;
   }
 
   Study skipped(const Item& item) const {
@@ -201,7 +195,7 @@ class Reproduction {
       looked += (looked.empty() ? "" : ", ") + (folder / item.needs).lexically_normal().string();
     const std::string why = fmt::format("SKIPPED: its data was not found; looked for {}", looked);
     print("{}\n  {}\n  (give the folder with --data or the variable PLIANT_DATA)\n\n", item.name, why);
-    return {item.name, item.title, "", {}, {}, {}, {}, {why}, "", {}};
+    return note_of(item, {why});
   }
 
   void write_page(const fs::path& folder) const {

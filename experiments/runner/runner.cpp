@@ -42,12 +42,14 @@ class Runs {
   ExperimentResult make(const fs::path& folder) {
     ResultFolder result(folder, result_files(task_, plan_, workbench_.registry()), plan_.experiment.files,
                         plan_.has_variants() ? ResultFolder::Leftovers::stay : ResultFolder::Leftovers::go);
-    const RunStore finished(result.unfinished(), options_.takes_whole || is_incomplete(folder) ? folder : "");
+    const RunStore finished(result.unfinished(),
+                            options_.is_one_of_many || is_incomplete(folder) ? folder : "");
     if (plan_.has_variants()) result.keep_only(take(finished));
     for (const auto& run : plan_.runs) {
       make_or_take(run, result.unfinished(), finished);
       if (plan_.has_variants() && !made_.runs.empty()) result.keep();
     }
+    if (made_.runs.empty() && options_.is_one_of_many) return std::move(made_);
     if (made_.runs.empty()) std::rethrow_exception(made_.failed.front().error);
     write_overview(task_, plan_, made_, workbench_.device(plan_.runs.front().values).info(),
                    result.unfinished());

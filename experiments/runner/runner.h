@@ -36,8 +36,9 @@ void check_experiment(const ExperimentPlan& plan, Workbench& workbench);
 /// How an experiment is run.
 struct RunOptions {
   int repeats = 0;  ///< see Task::make; 0: as the experiment says
-  /// Whether runs are also taken from a result that is whole: one of many that are made together.
-  bool takes_whole = false;
+  /// One of many that are made together: runs are also taken from a result that is whole, and where all of
+  /// them fail only the result says so, and nothing is written.
+  bool is_one_of_many = false;
 };
 
 /// What the progress of a run says that is not made but taken.

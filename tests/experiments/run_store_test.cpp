@@ -231,8 +231,8 @@ TEST_F(UnfinishedTest, WhatEndsACallLeavesTheOldResultAndTheFinishedRunsForTheNe
 TEST_F(UnfinishedTest, AnotherExperimentClearsItAway) {
   run_until(plan("runs: {a: , b: }"), "b");
   EXPECT_THAT(run(plan("runs: {a: {seed: 4}, d: }")).taken, IsEmpty());
-  EXPECT_EQ(files(),
-            (std::set<std::string>{".pliant", "result.json", "experiment.yaml", "index.html", "a", "d"}));
+  EXPECT_EQ(files(), (std::set<std::string>{".pliant", "result.json", "experiment.yaml", "index.html",
+                                            "results.csv", "a", "d"}));
 }
 
 TEST_F(UnfinishedTest, ASingleRunLeavesNothing) {
