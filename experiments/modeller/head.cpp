@@ -63,7 +63,6 @@ void add_nose(Solid& solid, const HeadMeasures& head) {
 
 void add_mouth(Solid& solid, const HeadMeasures& head) {
   const Eigen::Vector3d& m = head.mouth;
-  const double thick = head.lips;
   solid.add(ellipsoid(m + Eigen::Vector3d(0, 2, -27), {34, 28, 24}), 18);
   solid.raise({0, m.y() + 13, m.z() + 4}, {3.2, 7, 8}, -1.6);
   solid.raise_pair({4.8, m.y() + 12, m.z() + 4}, {2.6, 6, 8}, 0.9);
