@@ -5,7 +5,10 @@
 namespace pliant {
 
 // Each figure has a file of its own.
-FigureKind head_figure();
+FigureKind sheet_figure();
 FigureKind hand_figure();
+FigureKind head_figure();
+FigureKind bag_figure();
+FigureKind body_figure();
 
 }  // namespace pliant

@@ -43,18 +43,19 @@ std::vector<Finger> fingers_of(double thickness) {
   return fingers;
 }
 
-/// Thicker at its joints than between.
 Shape finger_shape(const Finger& finger) {
-  constexpr double waist = 0.94;
   std::vector<Bead> beads;
-  for (std::size_t i = 0; i < finger.points.size(); ++i) {
-    if (i > 0) {
-      const double between = (finger.radii[i - 1] + finger.radii[i]) / 2;
-      beads.push_back({(finger.points[i - 1] + finger.points[i]) / 2, waist * between});
-    }
-    beads.push_back({finger.points[i], finger.radii[i]});
+  for (std::size_t i = 0; i < finger.points.size(); ++i) beads.push_back({finger.points[i], finger.radii[i]});
+  Solid solid;
+  solid.add(tube(beads, 1.5), 0);
+  const Eigen::Vector3d along = (finger.points[3] - finger.points[0]).normalized();
+  const Eigen::Vector3d to_palm = finger.bend_axis.cross(along).normalized();
+  for (const std::size_t joint : {1, 2}) {
+    const double radius = finger.radii[joint];
+    solid.raise(finger.points[joint] + radius * to_palm, {6, 2.4, 6}, -0.9);
+    solid.raise(finger.points[joint] - radius * to_palm, {6, 5, 6}, 0.7);
   }
-  return tube(beads, 2);
+  return solid.shape();
 }
 
 void add_palm(Solid& hand) {
@@ -63,11 +64,11 @@ void add_palm(Solid& hand) {
   const std::array<Bead, 4> wrist = {
       {{{12, 4, -1}, 13}, {{3, 2, -3}, 14}, {{-7, 2, -3}, 14}, {{-16, 5, -1}, 12}}};
   for (std::size_t i = 0; i < knuckles.size(); ++i) hand.add(tube({wrist[i], knuckles[i]}), 12);
-  hand.add(tube({{{24, 82, 4}, 9}, {{2, 86, 3}, 9}, {{-33, 72, 5}, 8}}), 10);
+  hand.add(tube({{{24, 82, 2}, 9}, {{2, 86, 1}, 9}, {{-33, 72, 3}, 8}}), 10);
   // The ball of the thumb and the heel of the hand.
   hand.add(ellipsoid({26, 37, 9}, {14, 30, 13}, turned(0, 0, -32)), 12);
   hand.add(ellipsoid({-27, 34, 6}, {13, 34, 12}, turned(0, 0, 10)), 12);
-  hand.raise({-2, 52, 16}, {15, 22, 14}, -4);
+  hand.raise({-2, 52, 16}, {15, 22, 14}, -2.5);
   // The wrist, wider than it is thick.
   hand.add(tube({{{9, -60, -2}, 20}, {{8, 0, -2}, 17}}), 10);
   hand.add(tube({{{-9, -60, -2}, 20}, {{-8, 0, -2}, 17}}), 10);
@@ -83,18 +84,22 @@ Solid hand_solid(const std::vector<Finger>& fingers) {
 
 Skeleton hand_skeleton(const std::vector<Finger>& fingers) {
   Skeleton skeleton;
-  skeleton.add("forearm", "", {{0, -60, -2}, {0, -8, -2}, 22});
-  skeleton.add("wrist", "forearm", {{0, 0, -2}, {3, 82, -2}, 13});
+  skeleton.add("forearm", "", {{0, -60, -2}, {0, -8, -2}, 20, 14});
+  skeleton.add("wrist", "forearm", {{0, 0, -2}, {3, 82, -2}, 13, 8});
   for (const Finger& finger : fingers) {
+    const Eigen::Vector3d& knuckle = finger.points[0];
     if (finger.name != "thumb")
-      skeleton.also({{finger.points[0].x() / 3, 5, -2}, finger.points[0] - Eigen::Vector3d(0, 4, 0), 12});
+      skeleton.also({{knuckle.x() / 3, 5, -2}, knuckle - Eigen::Vector3d(0, 4, 0), 12, 8});
   }
   for (const Finger& finger : fingers) {
     std::string parent = "wrist";
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string joint = finger.name + "_" + std::to_string(i + 1);
-      skeleton.add(joint, parent, {finger.points[i], finger.points[i + 1], finger.radii[i + 1]},
-                   finger.bend_axis);
+      const double blend = joint == "thumb_1" ? 22 : 7;
+      skeleton.add(
+          joint, parent,
+          {finger.points[i], finger.points[i + 1], joint == "thumb_1" ? 5 : finger.radii[i + 1], blend},
+          finger.bend_axis);
       parent = joint;
     }
   }
@@ -135,8 +140,8 @@ std::vector<NamedPose> hand_poses() {
 
 Figure make_hand(const Parameters& identity) {
   const std::vector<Finger> fingers = fingers_of(identity.real("thickness"));
-  Figure figure{polygonise(hand_solid(fingers), {1.9}), hand_poses()};
-  hand_skeleton(fingers).bind(figure.mesh, 7);
+  Figure figure{polygonise(hand_solid(fingers), {2.15}), hand_poses()};
+  hand_skeleton(fingers).bind(figure.mesh);
   return figure;
 }
 

@@ -14,7 +14,7 @@ double away_from_middle(const Point& p) { return std::abs(p.x()); }
 /// Between the lips that is a step; beyond the corners of the mouth the cheek takes it up.
 ScalarField jaw_share(const HeadMeasures& head) {
   const Point mouth = head.mouth;
-  const ScalarField aside = rise(away_from_middle, 6, 32);
+  const ScalarField aside = rise([](const Point& p) { return p.x() * p.x(); }, 0, 32 * 32);
   const ScalarField behind = rise([](const Point& p) { return -p.z(); }, -72, -45);
   const ScalarField below = [=](const Point& p) {
     const double width = 1.5 + 24 * std::max(aside(p), behind(p));
@@ -39,8 +39,8 @@ std::vector<MorphTarget> head_targets(const HeadMeasures& head, const std::vecto
   const Point& mouth = head.mouth;
   const VectorField cheeks = both_sides(bump({50, -58, 52}, 23) * shift({9, 0, 5.5})) +
                              bump(mouth, {20, 14, 15}) * shift({0, 0, -1});
-  const VectorField kiss = bump(mouth, {28, 17, 25}) * stretch(mouth, {-0.35, 0, 0}) +
-                           bump(mouth, {17, 14, 22}) * shift({0, 0, 9}) +
+  const VectorField kiss = bump(mouth, {30, 17, 25}) * stretch(mouth, {-0.5, 0, 0}) +
+                           bump(mouth, {16, 12, 22}) * shift({0, 0, 10}) +
                            both_sides(bump({40, -60, 60}, 18) * shift({-2, 0, -2}));
   const VectorField open_mouth = jaw_share(head) * turn({0, -10, 5}, Point::UnitX(), 13);
   const VectorField angry = both_sides(bump({15, 15, 85}, {15, 12, 20}) * shift({-2.5, -5, 1}) +

@@ -23,6 +23,10 @@ class Solid {
   Solid& raise(const Eigen::Vector3d& centre, const Eigen::Vector3d& radii, double height);
   Solid& raise_pair(const Eigen::Vector3d& centre, const Eigen::Vector3d& radii, double height);
 
+  /// Moves the surface inwards by `depth` mm where it is inside the shape; the rim is a slope `rim` mm wide.
+  Solid& press(const Shape& shape, double depth, double rim);
+  Solid& press_pair(const Shape& shape, double depth, double rim);
+
   /// As of a Shape, and not more than some times as steep: see `polygonise`.
   double distance(const Eigen::Vector3d& point) const;
   /// Of all that was added.
@@ -31,23 +35,32 @@ class Solid {
   Shape shape() const;
 
  private:
-  enum class Kind { add, cut, raise };
+  enum class Kind { add, cut, raise, press };
   struct Step {
     Kind kind;
     Shape shape;  // of a `raise`: its exponential
     double blend;
+    double depth = 0;  // of a `press`
   };
   std::vector<Step> steps_;
   Eigen::AlignedBox3d box_;
 };
 
+/// Where samples are closer to each other: 1 - gain times as far apart at the centre, as they are elsewhere
+/// beyond about 2 `radius` mm.
+struct Focus {
+  Eigen::Vector3d centre;
+  double radius;
+  double gain;  ///< below 0.6
+};
+
 /// How finely a solid is cut into triangles: samples are `spacing` mm apart at `centre`, and farther the
-/// farther they are from it: cosh(s / reach) times as far along the way from the centre, s being the way in
-/// mm as samples count it, so that the n-th sample is reach * sinh(n * spacing / reach) mm away.
+/// farther they are from it: the n-th one is reach * sinh(n * spacing / reach) mm away.
 struct Sampling {
   double spacing = 2;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double reach = std::numeric_limits<double>::infinity();
+  std::vector<Focus> foci = {};
 };
 
 /// The surface of a solid: a closed mesh with even triangles whose vertices lie on it. What is thinner than

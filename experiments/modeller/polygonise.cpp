@@ -8,7 +8,8 @@
 namespace pliant {
 namespace {
 
-/// Samples are even in a space of their own, which this spreads out around a centre.
+/// Samples are even in a space of their own, which this spreads out around a centre and draws together around
+/// the foci.
 class Lens {
  public:
   explicit Lens(const Sampling& sampling) : sampling_(sampling) {}
@@ -16,7 +17,13 @@ class Lens {
   Eigen::Vector3d point_of(const Eigen::Vector3d& place) const {
     const Eigen::Vector3d offset = place - sampling_.centre;
     const double scaled = offset.norm() / sampling_.reach;
-    return sampling_.centre + offset * (scaled < 1e-6 ? 1 : std::sinh(scaled) / scaled);
+    Eigen::Vector3d point = sampling_.centre + offset * (scaled < 1e-6 ? 1 : std::sinh(scaled) / scaled);
+    for (const Focus& focus : sampling_.foci) {
+      const Eigen::Vector3d from_focus = point - focus.centre;
+      const double squared = from_focus.squaredNorm() / (focus.radius * focus.radius);
+      if (squared < negligible) point -= focus.gain * std::exp(-squared) * from_focus;
+    }
+    return point;
   }
 
   /// Of all places whose points lie in the box.
@@ -25,12 +32,22 @@ class Lens {
       return std::isinf(reach) ? r : reach * std::asinh(r / reach);
     };
     Eigen::AlignedBox3d places(sampling_.centre, sampling_.centre);
-    for (const Eigen::Vector3d& corner : {box.min(), box.max()})
+    for (const Eigen::Vector3d& corner : {pushed_out(box).min(), pushed_out(box).max()})
       places.extend(sampling_.centre + (corner - sampling_.centre).unaryExpr(contracted));
     return places;
   }
 
  private:
+  static constexpr double negligible = 20;  // exp(-20) of a radius is far below what a float tells apart
+
+  /// The box and what foci may draw into it.
+  Eigen::AlignedBox3d pushed_out(const Eigen::AlignedBox3d& box) const {
+    constexpr double farthest = 0.43;  // r exp(-r^2) is never more
+    double most = 0;
+    for (const Focus& focus : sampling_.foci) most += farthest * focus.gain * focus.radius;
+    return {box.min().array() - most, box.max().array() + most};
+  }
+
   Sampling sampling_;
 };
 

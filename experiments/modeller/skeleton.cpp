@@ -49,29 +49,32 @@ Skeleton& Skeleton::also(const Bone& bone) {
   return *this;
 }
 
-void Skeleton::bind(Mesh& mesh, double blend) const {
+void Skeleton::bind(Mesh& mesh) const {
   mesh.joints.clear();
   for (const Part& part : parts_) mesh.joints.push_back(part.joint);
   mesh.skin.clear();
   mesh.skin.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3f& vertex : mesh.vertices)
-    mesh.skin.push_back(weights_at(vertex.cast<double>(), blend));
+  for (const Eigen::Vector3f& vertex : mesh.vertices) mesh.skin.push_back(weights_at(vertex.cast<double>()));
 }
 
-JointWeights Skeleton::weights_at(const Eigen::Vector3d& point, double blend) const {
-  std::vector<std::pair<double, int>> nearest;  // distance from the joint's bones, and the joint
+JointWeights Skeleton::weights_at(const Eigen::Vector3d& point) const {
+  std::vector<double> distances;  // of each joint's nearest bone
   for (const Part& part : parts_) {
     double least = std::numeric_limits<double>::max();
     for (const Bone& bone : part.bones) least = std::min(least, distance_from(bone, point));
-    nearest.emplace_back(least, static_cast<int>(nearest.size()));
+    distances.push_back(least);
   }
-  std::sort(nearest.begin(), nearest.end());
+  const double nearest = *std::min_element(distances.begin(), distances.end());
+  std::vector<std::pair<double, int>> shares;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const double share = 1 - (distances[i] - nearest) / parts_[i].bones[0].blend;
+    if (share > 0) shares.emplace_back(share * share, static_cast<int>(i));
+  }
+  std::sort(shares.rbegin(), shares.rend());
   JointWeights carried;
-  const std::size_t count = std::min<std::size_t>(nearest.size(), 4);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double share = std::max(0.0, 1 - (nearest[i].first - nearest[0].first) / blend);
-    carried.joints[static_cast<Eigen::Index>(i)] = nearest[i].second;
-    carried.weights[static_cast<Eigen::Index>(i)] = static_cast<float>(share * share);
+  for (std::size_t i = 0; i < std::min<std::size_t>(shares.size(), 4); ++i) {
+    carried.joints[static_cast<Eigen::Index>(i)] = shares[i].second;
+    carried.weights[static_cast<Eigen::Index>(i)] = static_cast<float>(shares[i].first);
   }
   carried.weights /= carried.weights.sum();
   return carried;

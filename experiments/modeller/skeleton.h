@@ -13,6 +13,7 @@ struct Bone {
   Eigen::Vector3d from;
   Eigen::Vector3d to;
   double radius;
+  double blend;  ///< mm: how much farther than the nearest joint it may be and still carry a little
 };
 
 /// Joints in the order in which they are added, all at rest in the figure's frame.
@@ -25,16 +26,17 @@ class Skeleton {
   /// One more bone of the joint that was added last.
   Skeleton& also(const Bone& bone);
 
-  /// Gives the mesh these joints, and every vertex those of the bones near it: all of the nearest bone, and
-  /// of another the less the farther it is than the nearest, none from `blend` mm on; the four with the most.
-  void bind(Mesh& mesh, double blend) const;
+  /// Gives the mesh these joints, and every vertex those of the bones near it: the nearest, and another the
+  /// less the farther it is than the nearest, not at all from its `blend` on; of these the four with the
+  /// most.
+  void bind(Mesh& mesh) const;
 
  private:
   struct Part {
     Joint joint;
     std::vector<Bone> bones;
   };
-  JointWeights weights_at(const Eigen::Vector3d& point, double blend) const;
+  JointWeights weights_at(const Eigen::Vector3d& point) const;
 
   std::vector<Part> parts_;
 };

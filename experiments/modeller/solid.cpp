@@ -1,8 +1,17 @@
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/modeller/implicit.h"
 
 namespace pliant {
+namespace {
+
+double smooth_step(double t) {
+  const double share = std::clamp(t, 0.0, 1.0);
+  return share * share * (3 - 2 * share);
+}
+
+}  // namespace
 
 Solid& Solid::add(const Shape& shape, double blend) {
   steps_.push_back({Kind::add, shape, blend});
@@ -38,6 +47,15 @@ Solid& Solid::raise_pair(const Eigen::Vector3d& centre, const Eigen::Vector3d& r
   return raise(centre, radii, height).raise({-centre.x(), centre.y(), centre.z()}, radii, height);
 }
 
+Solid& Solid::press(const Shape& shape, double depth, double rim) {
+  steps_.push_back({Kind::press, shape, rim, depth});
+  return *this;
+}
+
+Solid& Solid::press_pair(const Shape& shape, double depth, double rim) {
+  return press(shape, depth, rim).press(mirrored(shape), depth, rim);
+}
+
 double Solid::distance(const Eigen::Vector3d& point) const {
   double distance = std::numeric_limits<double>::max();
   for (const Step& step : steps_) {
@@ -55,6 +73,9 @@ double Solid::distance(const Eigen::Vector3d& point) const {
         break;
       case Kind::raise:
         if (beyond < 0) distance -= step.shape.distance(point);
+        break;
+      case Kind::press:
+        if (beyond < 0) distance += step.depth * smooth_step(-step.shape.distance(point) / step.blend);
         break;
     }
   }

@@ -1,0 +1,167 @@
+#include "tests/modeller/figures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "experiments/modeller/pose.h"
+#include "tests/geometry/mesh_shape.h"
+#include "tests/modeller/intersections.h"
+
+namespace pliant {
+namespace {
+
+using testing::count_intersections;
+using testing::made;
+using testing::posed;
+using testing::shape_of;
+using testing::vertex_near;
+
+class EachFigure : public ::testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Figures, EachFigure, ::testing::Values("sheet", "hand", "head", "bag", "body"),
+                         [](const auto& info) { return info.param; });
+
+TEST(Figures, AreListedAndTested) {
+  std::vector<std::string> names;
+  for (const FigureKind& kind : figure_kinds()) names.push_back(kind.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"sheet", "hand", "head", "bag", "body"}));
+}
+
+double farthest(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
+  double most = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) most = std::max(most, (to[i] - from[i]).norm());
+  return most;
+}
+
+void expect_posable(const Figure& figure) {
+  const std::vector<Eigen::Vector3d> rest = figure.mesh.deform(figure.mesh.rest());
+  const double size = figure.mesh.skin.empty() ? 0 : 1e-3;
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    ASSERT_LE((rest[i] - figure.mesh.vertices[i].cast<double>()).norm(), size);
+  ASSERT_FALSE(figure.poses.empty());
+  for (const NamedPose& pose : figure.poses) {
+    const double whole = farthest(rest, posed(figure, pose.name));
+    EXPECT_GT(whole, 4) << pose.name << " in mm";
+    const double half = farthest(rest, posed(figure, pose.name, 0.5));
+    EXPECT_LT(half, whole) << pose.name;
+    EXPECT_GT(half, 0.4 * whole) << pose.name;
+  }
+}
+
+void expect_same_bits(const Mesh& a, const Mesh& b) {
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  EXPECT_EQ(std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(a.vertices[0])), 0);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TEST_P(EachFigure, IsASurfaceAndMovesAsItsPosesSay) {
+  const Figure figure = made(GetParam());
+  const Mesh& mesh = figure.mesh;
+  EXPECT_GE(mesh.triangles.size(), 15000U);
+  EXPECT_LE(mesh.triangles.size(), 30000U);
+  const auto shape = shape_of(mesh);
+  EXPECT_EQ(shape.repeated_edges, 0);
+  EXPECT_EQ(shape.unused_vertices, 0);
+  EXPECT_GT(shape.least_height, 0.01) << "mm of the flattest triangle";
+  if (GetParam() == "sheet") {
+    EXPECT_EQ(shape.open_edges, 2 * (116 + 88));
+  } else {
+    EXPECT_EQ(shape.open_edges, 0);
+    EXPECT_EQ(shape.euler, GetParam() == "bag" ? 2 - 2 * 2 : 2) << "two handles of a bag, none else";
+    EXPECT_GT(shape.volume, 0);
+  }
+  EXPECT_EQ(count_intersections(mesh), 0U);
+  for (const JointWeights& skin : mesh.skin) {
+    ASSERT_NEAR(skin.weights.sum(), 1, 1e-6);
+    ASSERT_GE(skin.weights.minCoeff(), 0);
+  }
+  expect_posable(figure);
+  expect_same_bits(mesh, made(GetParam()).mesh);
+}
+
+TEST_P(EachFigure, IsClosedAtTheEndsOfEveryIdentityParameter) {
+  const auto shape_with = [](const std::string& parameter, double value) {
+    return shape_of(made(GetParam(), {{parameter, value}}).mesh);
+  };
+  const int open_edges = GetParam() == "sheet" ? 2 * (116 + 88) : 0;
+  for (const Parameter& row : testing::kind_of(GetParam()).identity.rows()) {
+    const auto low = shape_with(row.name(), row.lowest().value());
+    const auto high = shape_with(row.name(), row.highest().value());
+    for (const auto& shape : {low, high}) {
+      EXPECT_EQ(shape.open_edges, open_edges) << row.name();
+      EXPECT_EQ(shape.repeated_edges, 0) << row.name();
+    }
+    if (GetParam() != "sheet") {
+      EXPECT_GT(std::abs(high.volume / low.volume - 1), 1e-4) << row.name();
+    }
+  }
+}
+
+TEST(Figures, APoseOfATargetOrJointThatTheMeshLacksIsRefused) {
+  const Figure sheet = made("sheet");
+  EXPECT_THROW(mesh_pose(sheet.mesh, {"odd", "", {{"bent", 1}}, {}}), std::invalid_argument);
+  EXPECT_THROW(mesh_pose(sheet.mesh, {"odd", "", {}, {{"elbow", {1, 0, 0}}}}), std::invalid_argument);
+}
+
+TEST(Figures, AFistBringsFingertipsToThePalm) {
+  const Figure hand = made("hand");
+  const auto fist = posed(hand, "fist");
+  const auto point = posed(hand, "point");
+  const std::size_t tip = vertex_near(hand, {7, 193, 8});
+  const std::size_t index_tip = vertex_near(hand, {40, 178, 5});
+  const std::size_t wrist = vertex_near(hand, {0, -10, 18});
+  EXPECT_LT(fist[tip].y(), 85);
+  EXPECT_GT(fist[tip].z(), 10);
+  EXPECT_LT(fist[index_tip].y(), 85);
+  EXPECT_NEAR(point[index_tip].y(), hand.mesh.vertices[index_tip].y(), 2);
+  EXPECT_NEAR((fist[wrist] - hand.mesh.vertices[wrist].cast<double>()).norm(), 0, 1e-3);
+}
+
+TEST(Figures, APinchBringsThumbAndIndexTogether) {
+  const Figure hand = made("hand");
+  const auto pinch = posed(hand, "pinch");
+  const auto part = [&](const std::string& joint) {
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t i = 0; i < pinch.size(); ++i) {
+      const JointWeights& skin = hand.mesh.skin[i];
+      if (hand.mesh.joints[static_cast<std::size_t>(skin.joints[0])].name == joint && skin.weights[0] > 0.9F)
+        points.push_back(pinch[i]);
+    }
+    return points;
+  };
+  double least = 1e9;
+  for (const Eigen::Vector3d& thumb : part("thumb_3")) {
+    for (const Eigen::Vector3d& index : part("index_3")) least = std::min(least, (thumb - index).norm());
+  }
+  EXPECT_LT(least, 3);
+}
+
+TEST(Figures, ArmsGoUpAndForwardWhileTheRestStays) {
+  const Figure body = made("body");
+  const auto up = posed(body, "arms_up");
+  const auto forward = posed(body, "arms_forward");
+  const std::size_t hand = vertex_near(body, {700, 870, 0});
+  const std::size_t knee = vertex_near(body, {110, 600, 60});
+  const std::size_t nose = vertex_near(body, {0, 1592, 120});
+  EXPECT_GT(up[hand].y(), 1800);
+  EXPECT_GT(forward[hand].z(), 300);
+  EXPECT_NEAR((up[knee] - body.mesh.vertices[knee].cast<double>()).norm(), 0, 1e-2);
+  EXPECT_NEAR((up[nose] - body.mesh.vertices[nose].cast<double>()).norm(), 0, 1e-2);
+}
+
+TEST(Figures, AShearOrStretchOfTheSheetStaysInItsPlane) {
+  const Figure sheet = made("sheet");
+  for (const char* pose : {"shear", "stretch"}) {
+    for (const Eigen::Vector3d& point : posed(sheet, pose)) ASSERT_EQ(point.z(), 0);
+  }
+  // A bend keeps lengths along it.
+  const auto bent = posed(sheet, "bend");
+  for (std::size_t i = 1; i < 50; ++i) EXPECT_NEAR((bent[i] - bent[i - 1]).norm(), 320.0 / 116, 0.001);
+}
+
+}  // namespace
+}  // namespace pliant
