@@ -39,6 +39,14 @@ std::string doubt_about_unit(std::vector<float> depths, double depth_scale, cons
         "depth_scale, mm a unit, now {:g}: perhaps {}",
         path, median, median < nearest ? "nearer" : "farther", depth_scale,
         likely_scale(median / depth_scale));
+  constexpr double tum_scale = 0.2;
+  constexpr double nearest_of_kinect = 400;
+  if (depth_scale == tum_scale && median < nearest_of_kinect)
+    return fmt::format(
+        "{}: the median depth is {:g} mm, nearer than a Kinect sees; if the file counts millimetres and not "
+        "5000 "
+        "units a metre, depth_scale is 1",
+        path, median);
   const bool is_in_fives = depth_scale == 1 && std::all_of(depths.begin(), depths.end(), [](float depth) {
                              return std::fmod(depth, 5.0F) == 0;
                            });

@@ -2,84 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "experiments/datasets/depth_doubts.h"
 #include "experiments/datasets/stored_pair.h"
 #include "framework/core/error.h"
-#include "framework/geometry/has_point.h"
-#include "framework/io/images.h"
 #include "framework/io/intrinsics.h"
-#include "framework/io/scene_flow.h"
 
 namespace pliant {
 namespace {
-
-/// Throws unless `image` (of the file `path`) has the size of the one it belongs to: "the depth image b.png".
-template <class AnyImage, class Other>
-void check_size(const AnyImage& image, const std::string& path, const Other& other,
-                const std::string& which) {
-  if (image.width() == other.width() && image.height() == other.height()) return;
-  throw DataError(fmt::format("{}: {}x{} pixels, but {} has {}x{}", path, image.width(), image.height(),
-                              which, other.width(), other.height()));
-}
-
-std::string depth_named(const std::string& path) { return "the depth image " + path; }
-
-void scale(DepthImage& depth, double factor) {
-  std::transform(depth.data(), depth.data() + depth.size(), depth.data(),
-                 [factor](float value) { return static_cast<float>(value * factor); });
-}
-
-void drop_farther(DepthImage& depth, double limit) {
-  std::replace_if(
-      depth.data(), depth.data() + depth.size(), [limit](float value) { return value > limit; }, 0.0f);
-}
-
-void check_has_points(const Frame& frame, const RgbdPair::FrameFiles& files,
-                      std::optional<double> max_depth) {
-  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
-    if (has_point(frame, i)) return;
-  }
-  throw DataError(fmt::format("{}: no valid depth{}{}", files.depth,
-                              max_depth ? fmt::format(" up to {} mm", *max_depth) : "",
-                              frame.mask.empty() ? "" : " inside the mask " + files.mask));
-}
-
-MaskImage read_object_mask(const std::string& path) {
-  MaskImage mask = read_mask(path);
-  const auto is_object = [](std::uint8_t value) { return value != 0; };
-  if (std::none_of(mask.pixels().begin(), mask.pixels().end(), is_object)) {
-    throw DataError(fmt::format("{}: the mask is empty", path));
-  }
-  return mask;
-}
-
-Frame read_frame(const RgbdPair::FrameFiles& files, const RgbdPair::Settings& settings) {
-  Frame frame;
-  frame.depth = read_depth(files.depth);
-  scale(frame.depth, settings.depth_scale);
-  if (!files.color.empty()) {
-    frame.color = read_color(files.color);
-    if (settings.color_intrinsics.empty())
-      check_size(frame.color, files.color, frame.depth, depth_named(files.depth));
-  }
-  if (!files.mask.empty()) {
-    frame.mask = read_object_mask(files.mask);
-    check_size(frame.mask, files.mask, frame.depth, depth_named(files.depth));
-  }
-  if (settings.max_depth) drop_farther(frame.depth, *settings.max_depth);
-  check_has_points(frame, files, settings.max_depth);
-  return frame;
-}
-
-void add(std::vector<std::string> more, std::vector<std::string>& warnings) {
-  std::move(more.begin(), more.end(), std::back_inserter(warnings));
-}
 
 /// Two cameras that stand closer than their lenses could were probably measured in metres.
 std::vector<std::string> doubts_about_distance(const Eigen::Isometry3d& color_from_depth,
@@ -102,14 +35,6 @@ void add_color_camera(const RgbdPair::Settings& settings, StoredPair& pair) {
   pair.rig.color_from_depth = settings.color_from_depth;
   add(std::move(intrinsics.warnings), pair.warnings);
   add(doubts_about_distance(settings.color_from_depth, pair.name), pair.warnings);
-}
-
-// A truth that says nothing about the source belongs to another image.
-void check_has_truth(const Frame& source, const PairTruth& truth, const std::string& path) {
-  for (std::size_t i = 0; i < truth.scene_flow.size(); ++i) {
-    if (has_point(source, i) && truth.scene_flow.pixels()[i].allFinite()) return;
-  }
-  throw DataError(fmt::format("{}: no ground truth on any point of the source", path));
 }
 
 std::string path_or_empty(const Parameters& section, const std::string& name) {
@@ -140,7 +65,7 @@ void read_color_camera(const Parameters& section, RgbdPair::Settings& settings) 
   settings.color_from_depth = rigid_motion(section, "color_from_depth");
 }
 
-RgbdPair::FrameFiles frame_files(const Parameters& section) {
+FrameFiles frame_files(const Parameters& section) {
   return {section.text("depth"), path_or_empty(section, "color"), path_or_empty(section, "mask")};
 }
 
@@ -158,24 +83,22 @@ std::unique_ptr<DataStream> RgbdPair::open(Device& /*device*/, std::uint64_t /*s
   StoredPair pair;
   const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
   pair.name = stem(settings_.source.depth) + " to " + stem(settings_.target.depth);
-  pair.source = read_frame(settings_.source, settings_);
-  pair.target = read_frame(settings_.target, settings_);
+  const DepthUnits units{settings_.depth_scale, settings_.max_depth};
+  const bool has_color_camera = !settings_.color_intrinsics.empty();
+  pair.source = read_frame(settings_.source, units, has_color_camera);
+  pair.target = read_frame(settings_.target, units, has_color_camera);
   check_size(pair.target.depth, settings_.target.depth, pair.source.depth,
              depth_named(settings_.source.depth));
   Intrinsics intrinsics =
       read_intrinsics(settings_.intrinsics, pair.source.depth.width(), pair.source.depth.height());
   pair.rig.depth = intrinsics.camera;
   pair.warnings = std::move(intrinsics.warnings);
-  if (!settings_.color_intrinsics.empty()) add_color_camera(settings_, pair);
+  if (has_color_camera) add_color_camera(settings_, pair);
   const double depth_scale = settings_.depth_scale;
   add(doubts_about_depth(pair.source, depth_scale, settings_.source.depth), pair.warnings);
   add(doubts_about_depth(pair.target, depth_scale, settings_.target.depth), pair.warnings);
-  if (!settings_.scene_flow.empty()) {
-    pair.truth = PairTruth{read_scene_flow(settings_.scene_flow)};
-    check_size(pair.truth->scene_flow, settings_.scene_flow, pair.source.depth,
-               depth_named(settings_.source.depth));
-    check_has_truth(pair.source, *pair.truth, settings_.scene_flow);
-  }
+  if (!settings_.scene_flow.empty())
+    pair.truth = read_truth(settings_.scene_flow, pair.source, settings_.source.depth);
   return std::make_unique<StoredPairStream>(std::move(pair));
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/datasets/frame_files.h"
 #include "experiments/datasets/frame_source.h"
 #include "framework/core/registry.h"
 
@@ -12,11 +13,6 @@ namespace pliant {
 /// Two RGB-D images from files, with what is known about them. Paths are empty where there is no file.
 class RgbdPair : public FrameSource {
  public:
-  struct FrameFiles {
-    std::string depth;
-    std::string color;
-    std::string mask;
-  };
   struct Settings {
     FrameFiles source;
     FrameFiles target;

@@ -175,6 +175,13 @@ std::string doubt(const Camera& camera) {
 
 }  // namespace
 
+Intrinsics check_intrinsics(const Camera& camera, const std::string& place) {
+  Intrinsics intrinsics{camera, {}};
+  if (const std::string why = impossible(camera); !why.empty()) throw DataError(place + ": " + why);
+  if (const std::string why = doubt(camera); !why.empty()) intrinsics.warnings.push_back(place + ": " + why);
+  return intrinsics;
+}
+
 Intrinsics read_intrinsics(const std::string& path, int width, int height) {
   const std::vector<Number> k = read_numbers(path);
   if (k.size() != 9 && k.size() != 16) {
@@ -183,14 +190,8 @@ Intrinsics read_intrinsics(const std::string& path, int width, int height) {
   }
   const std::size_t columns = k.size() == 9 ? 3 : 4;
   check_pinhole(k, columns, path);
-  Intrinsics intrinsics{{k[0].value, k[columns + 1].value, k[2].value, k[columns + 2].value, width, height},
-                        {}};
-  const std::string first_row = place(path, k[0].line);
-  if (const std::string why = impossible(intrinsics.camera); !why.empty())
-    throw DataError(first_row + ": " + why);
-  if (const std::string why = doubt(intrinsics.camera); !why.empty())
-    intrinsics.warnings.push_back(first_row + ": " + why);
-  return intrinsics;
+  return check_intrinsics({k[0].value, k[columns + 1].value, k[2].value, k[columns + 2].value, width, height},
+                          place(path, k[0].line));
 }
 
 }  // namespace pliant
