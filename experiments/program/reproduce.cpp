@@ -102,7 +102,7 @@ class Reproduction {
   /// Gives the path of the page over everything.
   fs::path make(const fs::path& out) {
     ResultFolder result(out, files_, inputs_, ResultFolder::Leftovers::stay);
-    result.keep_only(folders_);
+    result.keep_only(begun_in(result.unfinished()));
     std::size_t runs = 0;
     for (const auto& planned : planned_) runs += planned.plan ? planned.plan->runs.size() : 0;
     TimeLeft time(runs);
@@ -127,6 +127,14 @@ class Reproduction {
     std::unique_ptr<Task> task;
     std::optional<ExperimentPlan> plan;  ///< none: its data was not found
   };
+
+  /// The folders of experiments that an earlier call has finished, or begun.
+  ResultFolder::Files begun_in(const fs::path& folder) const {
+    ResultFolder::Files begun;
+    for (const fs::path& name : folders_)
+      if (fs::exists(folder / name)) begun.push_back(name);
+    return begun;
+  }
 
   void plan(const Item& item) {
     if (!item.needs.empty() && !find_data(data_folders(options_.data), item.needs)) {

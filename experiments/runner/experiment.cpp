@@ -111,7 +111,10 @@ ParameterTable experiment_table() {
                      .at_least(1)
                      .doc("bend the source by these handles instead of registering it to the target"));
   for (auto& row : method_rows()) rows.push_back(std::move(row));
-  rows.push_back(components("reports", Report::kind).optional().doc("what is written about each run"));
+  rows.push_back(components("reports", Report::kind)
+                     .optional()
+                     .by_default({"surfaces", "pictures", "page"})
+                     .doc("what is written about each run; {} for nothing"));
   rows.push_back(
       overrides("runs").swept_by("sweep").doc("variants that are run instead of the experiment itself"));
   rows.push_back(components("solvers", Solver::kind)

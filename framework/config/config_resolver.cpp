@@ -34,6 +34,14 @@ Parameters::Value typed_value(const std::string& name, const ordered_json& scala
   return {name, scalar.get<std::string>()};
 }
 
+/// The default of a map of components as it would stand in the file.
+ConfigEntry named_by_default(const Parameter& row, const ConfigMark& mark) {
+  ConfigEntry entry{row.name(), mark, {}};
+  entry.value.kind = ConfigNode::Kind::map;
+  for (const std::string& name : row.default_names()) entry.value.entries.push_back({name, mark, {}});
+  return entry;
+}
+
 std::string expected_section(const ParameterTable& table) {
   return fmt::format("a section with keys of {}", fmt::join(names_of(table), ", "));
 }
@@ -92,6 +100,7 @@ void ConfigResolver::report_unknown_keys(const ConfigNode& node, const Parameter
 }
 
 ConfigResolver::MaybeResolved ConfigResolver::absent(const Parameter& row, const Place& place) {
+  if (!row.default_names().empty()) return components(row, named_by_default(row, place.mark), place);
   const ParameterType type = row.type();
   const bool is_list =
       type == ParameterType::components || type == ParameterType::groups || type == ParameterType::words;

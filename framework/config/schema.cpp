@@ -33,6 +33,7 @@ bool is_section(const Parameter& row) {
 }
 
 std::string default_shown(const Parameter& row) {
+  if (!row.default_names().empty()) return fmt::format("{}", fmt::join(row.default_names(), ", "));
   if (row.is_optional()) return "(none)";
   if (!row.default_text()) return "required";
   if (row.type() == ParameterType::text) return "\"" + *row.default_text() + "\"";
@@ -43,7 +44,7 @@ std::string description(const Parameter& row) {
   std::string text = row.doc();
   if (!row.unit().empty()) text += " [" + row.unit() + "]";
   const std::string shown = default_shown(row);
-  if (row.is_optional())
+  if (row.is_optional() && row.default_names().empty())
     text += " (optional)";
   else if (shown == "required")
     text += " (required)";

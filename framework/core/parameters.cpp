@@ -39,6 +39,11 @@ Parameter&& Parameter::optional() && {
   return std::move(*this);
 }
 
+Parameter&& Parameter::by_default(std::vector<std::string> names) && {
+  default_names_ = std::move(names);
+  return std::move(*this);
+}
+
 Parameter&& Parameter::swept_by(std::string key) && {
   swept_by_ = std::move(key);
   return std::move(*this);

@@ -43,6 +43,9 @@ class Parameter {
   Parameter&& at_least(double lowest) &&;  ///< of a `components` or `groups` parameter: so many entries
   Parameter&& above(double lowest) &&;     ///< the end itself is not allowed
   Parameter&& optional() &&;               ///< may be absent, and has no default
+  /// Of an optional `components` parameter: the components, each under its own name, that are meant where the
+  /// key is absent; an empty map means none.
+  Parameter&& by_default(std::vector<std::string> names) &&;
   /// Of an `overrides` parameter of the experiment itself: the key beside it under which a file may give
   /// lists of values instead, whose combinations become overrides.
   Parameter&& swept_by(std::string key) &&;
@@ -56,6 +59,7 @@ class Parameter {
   std::optional<double> highest() const { return highest_; }
   bool lowest_excluded() const { return lowest_excluded_; }
   const std::vector<std::string>& choices() const { return choices_; }
+  const std::vector<std::string>& default_names() const { return default_names_; }
   /// The key of an `overrides` parameter's sweeps; empty where it has none.
   const std::string& swept_by() const { return swept_by_; }
   /// The kind of components that a `component` or `components` parameter takes.
@@ -90,6 +94,7 @@ class Parameter {
   std::string kind_;
   std::string swept_by_;
   std::vector<std::string> choices_;
+  std::vector<std::string> default_names_;
   std::shared_ptr<const ParameterTable> table_;  // of group(s); shared because the type is incomplete here
   std::optional<std::string> default_;
   std::optional<double> lowest_;

@@ -122,20 +122,6 @@ TEST_F(CommandLineTest, FilesAreFoundBelowTheDataFolders) {
   EXPECT_THAT(call("check pair.yaml --data given").err, HasSubstr(file("given/d.png")));
 }
 
-TEST_F(CommandLineTest, ReproduceMakesAReportAndSaysWhatItSkips) {
-  const ProgramRun run = call("reproduce --quick --out rep", "PLIANT_DATA=" + file("nothing"));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("The report is " + file("rep/index.html")));
-  if (!fs::exists(fs::path(PLIANT_EXPERIMENTS).parent_path() / "data/deepdeform_seq258")) {
-    EXPECT_THAT(run.out,
-                HasSubstr("SKIPPED: its data was not found; looked for " + file("nothing/deepdeform")));
-    EXPECT_THAT(text_of("rep/index.html"), HasSubstr("SKIPPED"));
-  }
-  EXPECT_THAT(text_of("rep/index.html"), HasSubstr("<a href=\"sheet/index.html\">"));
-  EXPECT_TRUE(fs::exists(file("rep/sheet/index.html")));
-  EXPECT_TRUE(fs::exists(file("rep/compare_solvers/compare.json")));
-}
-
 TEST_F(CommandLineTest, UnknownWordsAreAnsweredWithWhatThereIs) {
   const struct {
     const char* arguments;

@@ -102,14 +102,6 @@ TEST_F(KeepingTest, RunsMayNotBeCalledAsFilesOfAResultAre) {
                                         MatchesRegex("names.yaml:3:37: .*'unfinished'.*")));
 }
 
-TEST_F(KeepingTest, AReproductionThatFailsLeavesTheOldOne) {
-  ASSERT_EQ(call("reproduce --quick --out rep", "PLIANT_DATA=" + file("nothing")).exit_code, 0);
-  const auto before = all_of("rep");
-  EXPECT_EQ(shell("ulimit -f 4000; $PLIANT reproduce --quick --out rep"), 3);
-  EXPECT_THAT(text_of("script.err"), HasSubstr("cannot be written: File too large"));
-  EXPECT_EQ(all_of("rep"), before);
-}
-
 // A limit on the size of files (2 MB, more than kernels take) stands for a full disk, which only root can
 // make.
 TEST_F(KeepingTest, AFullDiskIsToldWithTheFileAndLosesNothing) {

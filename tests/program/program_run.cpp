@@ -16,8 +16,8 @@ std::vector<std::string> ProgramRun::errors() const {
 }
 
 ProgramRun ProgramTest::call(const std::string& arguments, const std::string& environment) const {
-  const std::string command = "cd '" + file("") + "' && " + environment + " '" PLIANT_PROGRAM "' " +
-                              arguments + " >stdout.txt 2>stderr.txt </dev/null";
+  const std::string command = "cd '" + file("") + "' && " + environment + " '" + program_ + "' " + arguments +
+                              " >stdout.txt 2>stderr.txt </dev/null";
   const int status = std::system(command.c_str());
   ProgramRun run;
   if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);

@@ -23,7 +23,13 @@ class ProgramTest : public TestFiles {
   /// `arguments` as words of a shell; `environment` like "NAME=value", before it. In the test's folder.
   ProgramRun call(const std::string& arguments, const std::string& environment = "") const;
 
+  /// Calls another copy of the program from now on.
+  void set_program(const std::string& path) { program_ = path; }
+
   std::string text_of(const std::string& name) const;
+
+ private:
+  std::string program_ = PLIANT_PROGRAM;
 };
 
 }  // namespace pliant::testing
