@@ -4,6 +4,7 @@
 #include "experiments/datasets/image_folder.h"
 #include "experiments/datasets/rendered_mesh.h"
 #include "experiments/datasets/rgbd_pair.h"
+#include "experiments/datasets/surface_pair.h"
 #include "experiments/datasets/synthetic_sheet.h"
 #include "experiments/datasets/tum.h"
 
@@ -14,6 +15,7 @@ void register_datasets(Registry& registry) {
   register_image_folder(registry);
   register_rendered_mesh(registry);
   register_rgbd_pair(registry);
+  register_surface_pair(registry);
   register_synthetic_sheet(registry);
   register_tum(registry);
 }

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
@@ -133,7 +132,7 @@ class DeepDeform : public FrameSource {
   std::unique_ptr<DataStream> open(Device& /*device*/, std::uint64_t /*seed*/) const override {
     const SequenceFiles files(folder_);
     Sequence sequence;
-    sequence.name = std::filesystem::path(folder_).filename().string();
+    sequence.name = name_of_folder(folder_);
     if (pair_) sequence.name += fmt::format(", {} to {}", pair_->source, pair_->target);
     sequence.frames = pair_ ? pair_of(files) : stream_of(files);
     sequence.camera = camera_;

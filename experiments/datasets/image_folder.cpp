@@ -48,7 +48,7 @@ class ImageFolder : public FrameSource {
 
   std::unique_ptr<DataStream> open(Device& /*device*/, std::uint64_t /*seed*/) const override {
     Sequence sequence;
-    sequence.name = std::filesystem::path(folder_).filename().string();
+    sequence.name = name_of_folder(folder_);
     sequence.frames = selected(frames(), selection_, (std::filesystem::path(folder_) / depth_).string());
     const auto has_mask = [](const Sequence::Item& frame) { return !frame.files.mask.empty(); };
     const auto masks = std::count_if(sequence.frames.begin(), sequence.frames.end(), has_mask);

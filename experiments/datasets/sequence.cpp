@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -111,6 +112,11 @@ DepthUnits depth_units_of(const Parameters& section) {
   DepthUnits units{section.real("depth_scale")};
   if (section.has("max_depth")) units.max_depth = section.real("max_depth");
   return units;
+}
+
+std::string name_of_folder(const std::string& path) {
+  const std::filesystem::path folder(path);
+  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
 std::vector<Sequence::Item> selected(const std::vector<Sequence::Item>& frames, const Selection& selection,

@@ -38,6 +38,9 @@ struct Sequence {
   std::vector<std::string> warnings;
 };
 
+/// What a folder is called, whether its path ends with a slash or not.
+std::string name_of_folder(const std::string& path);
+
 /// The frames that are selected. Throws DataError, which begins with `where`, when none is left.
 std::vector<Sequence::Item> selected(const std::vector<Sequence::Item>& frames, const Selection& selection,
                                      const std::string& where);

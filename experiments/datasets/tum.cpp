@@ -1,6 +1,5 @@
 #include "experiments/datasets/tum.h"
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -31,7 +30,7 @@ class Tum : public FrameSource {
   std::unique_ptr<DataStream> open(Device& /*device*/, std::uint64_t /*seed*/) const override {
     TumFrames read = read_tum_lists(folder_);
     Sequence sequence;
-    sequence.name = std::filesystem::path(folder_).filename().string();
+    sequence.name = name_of_folder(folder_);
     sequence.frames = selected(read.frames, selection_, folder_);
     sequence.camera = camera_;
     sequence.units = units_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <type_traits>
 
@@ -39,12 +40,22 @@ namespace {
 // Of 640x480 pixels with their truth they are half a gigabyte.
 constexpr std::size_t most_pairs = 48;
 
-/// Of a file, so that another one under the same name is not taken for it; of any other word nothing.
+/// Of a file, or of how many there are in a folder and the last of them to change, so that others under the
+/// same name are not taken for them; of any other word nothing.
 std::string time_of_change(const std::filesystem::path& word) {
+  namespace fs = std::filesystem;
   std::error_code ignored;
-  if (!word.is_absolute() || !std::filesystem::is_regular_file(word, ignored)) return "";
-  const auto time = std::filesystem::last_write_time(word, ignored);
-  return fmt::format("@{}", time.time_since_epoch().count());
+  if (!word.is_absolute()) return "";
+  if (fs::is_regular_file(word, ignored))
+    return fmt::format("@{}", fs::last_write_time(word, ignored).time_since_epoch().count());
+  if (!fs::is_directory(word, ignored)) return "";
+  int count = 0;
+  auto latest = fs::file_time_type::min();
+  for (const auto& entry : fs::recursive_directory_iterator(word, ignored)) {
+    ++count;
+    latest = std::max(latest, entry.last_write_time(ignored));
+  }
+  return fmt::format("@{}/{}", count, latest.time_since_epoch().count());
 }
 
 /// The same text for experiments that ask for the same device.

@@ -49,6 +49,7 @@ class ImageFolderFiles : public testing::SequenceFiles {
 TEST_F(ImageFolderFiles, AreSortedByNumberAndBelongTogether) {
   const auto stream = open(section(", color: color/*.png, mask: '*_mask.png', rate: 10"));
   const auto frames = frames_of(*stream);
+  EXPECT_EQ(stream->name(), std::filesystem::path(file("a")).parent_path().filename());
   ASSERT_EQ(frames.size(), 3U);
   EXPECT_EQ(frames[0].depth(0, 0), 709);
   EXPECT_EQ(frames[2].depth(0, 0), 711);

@@ -41,6 +41,7 @@ class TumFolder : public testing::SequenceFiles {
 
 TEST_F(TumFolder, IsAStreamInMillimetresAndSeconds) {
   const auto stream = open(section());
+  EXPECT_EQ(stream->name(), std::filesystem::path(file("a")).parent_path().filename());
   EXPECT_EQ(stream->rig().depth.fx, 50);
   EXPECT_EQ(stream->rig().depth.width, width);
   const auto frames = frames_of(*stream);

@@ -51,6 +51,17 @@ TEST_F(RunStoreTest, GivesBackWhatItWasGiven) {
   EXPECT_EQ(json["run"], summary_.json);
 }
 
+TEST_F(RunStoreTest, AFolderIsAnotherOneWhenItsFilesChange) {
+  const Parameters section("tum", {{"folder", file("store")}});
+  const std::string before = fingerprint(section);
+  EXPECT_EQ(fingerprint(section), before);
+  const std::string added = write("store/a/1.png", "one");
+  const std::string with_file = fingerprint(section);
+  EXPECT_NE(with_file, before);
+  fs::last_write_time(added, fs::last_write_time(added) + std::chrono::seconds(5));
+  EXPECT_NE(fingerprint(section), with_file);
+}
+
 TEST_F(RunStoreTest, GivesNothingElse) {
   const std::string page = write("store/a/index.html", "page");
   store_.write(summary_, "key", {page});
