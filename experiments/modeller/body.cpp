@@ -126,7 +126,7 @@ std::vector<NamedPose> body_poses() {
       {"arms_forward",
        "Both arms to the front",
        {},
-       {{"shoulder_left", {0, 0, 60}}, {"shoulder_right", {0, 0, -60}}}},
+       {{"shoulder_left", {10, 0, -72}}, {"shoulder_right", {-10, 0, -72}}}},
       {"wave",
        "The right hand raised to wave",
        {},
