@@ -118,14 +118,15 @@ std::vector<NamedPose::Turn> all(const std::vector<std::vector<NamedPose::Turn>>
 }
 
 std::vector<NamedPose> hand_poses() {
-  const auto fist = all({bent("middle", 82, 100, 60), bent("ring", 82, 100, 60), bent("little", 80, 98, 60)});
+  const auto fist =
+      all({bent("middle", 86, 104, 74), bent("ring", 86, 104, 74), bent("little", 84, 102, 74)});
   const std::vector<NamedPose::Turn> thumb_across = {
       {"thumb_1", {33, -10, -33}}, {"thumb_2", {32, 0, 0}}, {"thumb_3", {51, 0, 0}}};
   return {
       {"fist",
        "All fingers closed, the thumb across them",
        {},
-       all({fist, bent("index", 82, 100, 60), thumb_across})},
+       all({fist, bent("index", 84, 102, 70), thumb_across})},
       {"pinch",
        "Thumb and index meet at their tips",
        {},

@@ -42,10 +42,10 @@ VectorField mouth_closing(const HeadMeasures& head) {
 
 std::vector<MorphTarget> head_targets(const HeadMeasures& head, const std::vector<Point>& points) {
   const Point& mouth = head.mouth;
-  const VectorField cheeks = both_sides(bump({50, -58, 50}, 25) * shift({10.5, 0, 6})) +
+  const VectorField cheeks = both_sides(bump({51, -57, 51}, 25) * shift({11.5, 0, 7})) +
                              bump(mouth, {20, 14, 15}) * shift({0, 0, -1});
-  const VectorField kiss = bump(mouth, {30, 13, 25}) * stretch(mouth, {-0.5, 0, 0}) +
-                           bump(mouth, {16, 12, 22}) * shift({0, 0, 10}) +
+  const VectorField kiss = bump(mouth, {32, 14, 25}) * stretch(mouth, {-0.45, 0, 0}) +
+                           bump(mouth, {20, 14, 22}) * shift({0, 0, 9.5}) +
                            both_sides(bump({40, -60, 60}, 18) * shift({-2, 0, -2}));
   const VectorField open_mouth =
       jaw_share(head) * (turn({0, -10, 5}, Point::UnitX(), 6) + shift({0, -15, 2}));
