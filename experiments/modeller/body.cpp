@@ -102,9 +102,9 @@ Skeleton body_skeleton(const Arm& arm) {
     const std::string name = side > 0 ? "left" : "right";
     const auto mirror = [side](const Point& p) -> Point { return {side * p.x(), p.y(), p.z()}; };
     const Point middle = arm.shoulder + 0.12 * (arm.elbow - arm.shoulder);
-    skeleton.add("clavicle_" + name, "chest", {mirror({60, 1435, -16}), mirror(arm.shoulder), 45, 60},
+    skeleton.add("clavicle_" + name, "chest", {mirror({60, 1435, -16}), mirror(arm.shoulder), 45, 80},
                  forward);
-    skeleton.add("shoulder_" + name, "clavicle_" + name, {mirror(middle), mirror(arm.elbow), 38, 50},
+    skeleton.add("shoulder_" + name, "clavicle_" + name, {mirror(middle), mirror(arm.elbow), 38, 75},
                  forward);
     skeleton.add("elbow_" + name, "shoulder_" + name, {mirror(arm.elbow), mirror(arm.wrist), 34, 45},
                  forward);
@@ -126,7 +126,7 @@ std::vector<NamedPose> body_poses() {
       {"arms_forward",
        "Both arms to the front",
        {},
-       {{"shoulder_left", {0, 0, 60}}, {"shoulder_right", {0, 0, -60}}}},
+       {{"shoulder_left", {10, 0, -72}}, {"shoulder_right", {-10, 0, -72}}}},
       {"wave",
        "The right hand raised to wave",
        {},
@@ -136,7 +136,11 @@ std::vector<NamedPose> body_poses() {
 
 Figure make_body(const Parameters& identity) {
   const Arm arm(identity.real("arm_length"));
-  Figure figure{polygonise(body_solid(arm, identity.real("girth")), {9.4, {0, 1580, 60}, 420}), body_poses()};
+  const Point left_hand = (arm.wrist + arm.fingers) / 2;
+  const Point right_hand(-left_hand.x(), left_hand.y(), left_hand.z());
+  const Sampling sampling{
+      10.6, {0, 1580, 60}, 700, {{{0, 1610, 80}, 110, 0.5}, {left_hand, 90, 0.45}, {right_hand, 90, 0.45}}};
+  Figure figure{polygonise(body_solid(arm, identity.real("girth")), sampling), body_poses()};
   body_skeleton(arm).bind(figure.mesh);
   return figure;
 }

@@ -118,22 +118,23 @@ std::vector<NamedPose::Turn> all(const std::vector<std::vector<NamedPose::Turn>>
 }
 
 std::vector<NamedPose> hand_poses() {
-  const auto fist = all({bent("middle", 82, 100, 60), bent("ring", 82, 100, 60), bent("little", 80, 98, 60)});
+  const auto fist =
+      all({bent("middle", 86, 104, 74), bent("ring", 86, 104, 74), bent("little", 84, 102, 74)});
   const std::vector<NamedPose::Turn> thumb_across = {
-      {"thumb_1", {20, 0, -45}}, {"thumb_2", {35, 0, 0}}, {"thumb_3", {50, 0, 0}}};
+      {"thumb_1", {33, -10, -33}}, {"thumb_2", {32, 0, 0}}, {"thumb_3", {51, 0, 0}}};
   return {
       {"fist",
        "All fingers closed, the thumb across them",
        {},
-       all({fist, bent("index", 82, 100, 60), thumb_across})},
+       all({fist, bent("index", 84, 102, 70), thumb_across})},
       {"pinch",
        "Thumb and index meet at their tips",
        {},
-       all({bent("index", 48, 55, 30),
+       all({bent("index", 47, 54, 31),
             bent("middle", 20, 25, 12),
             bent("ring", 18, 22, 12),
             bent("little", 15, 20, 10),
-            {{"thumb_1", {15, 0, -40}}, {"thumb_2", {15, 0, 0}}, {"thumb_3", {25, 0, 0}}}})},
+            {{"thumb_1", {31, 0, -13}}, {"thumb_2", {14, 0, 0}}, {"thumb_3", {-12, 0, 0}}}})},
       {"point", "The index points, the other fingers are closed", {}, all({fist, thumb_across})},
   };
 }

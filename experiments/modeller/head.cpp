@@ -30,8 +30,8 @@ void add_skull(Solid& solid, const HeadMeasures& head) {
   // Cheekbones and brow.
   solid.add_pair(tube({{{60, -10, 8}, 7}, {{50, -19, 48}, 9}, {{36, -26, 64}, 10}}, 12), 18);
   solid.add_pair(ellipsoid({34, -54, 50}, {24, 30, 24}), 22);
-  solid.add_pair(tube({{{6, 16, 78}, 7}, {{28, 20, 74.5}, 7}, {{54, 6, 46}, 5}}, 10), 20);
-  solid.raise_pair({22, 17, 86}, {20, 7, 20}, head.brow);
+  solid.add_pair(tube({{{6, 18, 78}, 7}, {{28, 23, 74.5}, 7}, {{54, 9, 46}, 5}}, 10), 20);
+  solid.raise_pair({22, 19, 86}, {20, 7, 20}, head.brow);
   solid.raise_pair({47, -54, 55}, {18, 22, 22}, head.cheek_fullness);
 }
 
@@ -39,13 +39,18 @@ void add_eyes(Solid& solid, const HeadMeasures& head) {
   const Eigen::Vector3d& eye = head.eye;
   solid.raise_pair(eye + Eigen::Vector3d(-1, 0, 12), {18, 13, 20}, -6.5);
   solid.raise_pair(eye + Eigen::Vector3d(-17, 4, 14), {8, 10, 14}, -3);
-  solid.add_pair(ellipsoid(eye, {15.5, 13.8, 14.8}), 6);
-  // The opening of the lids is where a ball above and one below overlap.
-  Solid below;
-  below.add(ball(eye + Eigen::Vector3d(-0.5, -13, 13), 18.8), 0);
+  solid.raise_pair(eye + Eigen::Vector3d(16, -2, 2), {8, 10, 10}, 2.5);
+  solid.add_pair(ellipsoid(eye, {15.2, 13.8, 14.6}), 9);
+  // The opening of the lids is where a rod above and one below overlap.
+  const auto rod = [&](double y, double radius) {
+    const Eigen::Vector3d middle = eye + Eigen::Vector3d(-0.5, y, 0);
+    return tube({{middle, radius}, {middle + Eigen::Vector3d(0, 0, 30), radius}});
+  };
   Solid beyond;
-  beyond.add(ball(eye, 100), 0).cut(ball(eye + Eigen::Vector3d(-0.5, 14.5, 13), 20), 0);
-  solid.press_pair(below.cut(beyond.shape(), 0).shape(), 2.2, 2);
+  beyond.add(ball(eye, 100), 0).cut(rod(14.5, 21.6), 0);
+  Solid opening;
+  opening.add(rod(-13, 20.4), 0).cut(beyond.shape(), 0);
+  solid.press_pair(opening.shape(), 2.3, 3.6);
   solid.raise_pair(eye + Eigen::Vector3d(0, 0, 13), {3.2, 3.2, 4}, -0.8);
 }
 
@@ -58,14 +63,14 @@ void add_nose(Solid& solid, const HeadMeasures& head) {
   solid.add_pair(ellipsoid(tip + Eigen::Vector3d(11, -3, -11), {6.5, 7.2, 9}, turned(0, 25, 0)), 9);
   // The rims of the nostrils, then these.
   solid.add_pair(tube({{tip + Eigen::Vector3d(4, -6, 1), 3.5}, {tip + Eigen::Vector3d(12, -6.5, -7), 4}}), 5);
-  solid.raise_pair(tip + Eigen::Vector3d(6, -11, -5), {3.2, 4, 4}, -3.2);
+  solid.cut_pair(ellipsoid(tip + Eigen::Vector3d(6.3, -10.5, -3), {2.8, 5, 3.5}, turned(-20, 0, 0)), 2);
 }
 
 void add_mouth(Solid& solid, const HeadMeasures& head) {
   const Eigen::Vector3d& m = head.mouth;
   solid.add(ellipsoid(m + Eigen::Vector3d(0, 2, -27), {34, 28, 24}), 18);
-  solid.raise({0, m.y() + 13, m.z() + 4}, {3.2, 7, 8}, -1.6);
-  solid.raise_pair({4.8, m.y() + 12, m.z() + 4}, {2.6, 6, 8}, 0.9);
+  solid.raise({0, m.y() + 12, m.z() + 4}, {3.2, 6, 8}, -0.8);
+  solid.raise_pair({5, m.y() + 11, m.z() + 4}, {3, 5, 8}, 0.3);
   solid.raise({0, m.y() - 18, m.z()}, {20, 6, 14}, -2.5);
   // The cavity of the mouth, and lips around its opening.
   solid.cut(ellipsoid(m + Eigen::Vector3d(0, 0, -29), {22, 13, 19}), 4);
@@ -121,8 +126,8 @@ Sampling head_sampling(const HeadMeasures& head) {
   return {2.5,
           {0, -28, 75},
           42,
-          {{head.eye + forward, 20, 0.5},
-           {right_eye + forward, 20, 0.5},
+          {{head.eye + forward, 19, 0.58},
+           {right_eye + forward, 19, 0.58},
            {head.mouth, 26, 0.4},
            {ear, 30, 0.35},
            {Eigen::Vector3d(-ear.x(), ear.y(), ear.z()), 30, 0.35}}};
@@ -149,7 +154,7 @@ HeadMeasures::HeadMeasures(const Parameters& identity)
       cheek_fullness(identity.real("cheek_fullness")),
       lips(identity.real("lips")),
       chin(identity.real("chin")),
-      eye(31.5, -1, 65.5),
+      eye(31.5, -2, 67),
       nose_tip(0, 11 - identity.real("nose_length"), 101),
       mouth(0, -69, 90),
       corner(26, -69, 78) {}

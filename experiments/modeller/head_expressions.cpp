@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "experiments/modeller/head.h"
 
@@ -10,17 +11,21 @@ using Point = Eigen::Vector3d;
 
 double away_from_middle(const Point& p) { return std::abs(p.x()); }
 
-/// How much of a turn of the jaw a point takes: all of the lower lip and the chin, nothing of the upper lip.
-/// Between the lips that is a step; beyond the corners of the mouth the cheek takes it up.
+/// How much of a motion of the jaw a point takes: all of the lower lip and the chin, nothing of the upper
+/// lip. Cheeks and lips share it as an elastic sheet does around a slit that opens to an ellipse:
+/// Westergaard, "Bearing pressures and cracks", Journal of Applied Mechanics, 1939. The slit is the mouth,
+/// and ends in the cavity behind.
 ScalarField jaw_share(const HeadMeasures& head) {
-  const Point mouth = head.mouth;
-  const ScalarField aside = rise([](const Point& p) { return p.x() * p.x(); }, 0, 32 * 32);
-  const ScalarField behind = rise([](const Point& p) { return -p.z(); }, -72, -45);
+  const double half_slit = head.corner.x() - 8.5;
+  const ScalarField in_front = rise(coordinate(2), 48, 70);
   const ScalarField below = [=](const Point& p) {
-    const double width = 1.5 + 24 * std::max(aside(p), behind(p));
-    return (mouth.y() - p.y()) / width;
+    const double slit = half_slit * in_front(p);
+    const double y = p.y() - head.mouth.y();
+    const std::complex<double> place(std::abs(p.x()), y);
+    const double lift = std::copysign(std::sqrt(place * place - slit * slit).imag(), y);
+    return std::pow((1 - lift / std::hypot(half_slit, y)) / 2, 1.5);
   };
-  return rise(below, -1, 1) * rise(coordinate(2), -5, 50) * rise(coordinate(1), -150, -112);
+  return below * rise(coordinate(2), 14, 50) * rise(coordinate(1), -140, -112);
 }
 
 VectorField smile(const HeadMeasures& head) {
@@ -37,12 +42,13 @@ VectorField mouth_closing(const HeadMeasures& head) {
 
 std::vector<MorphTarget> head_targets(const HeadMeasures& head, const std::vector<Point>& points) {
   const Point& mouth = head.mouth;
-  const VectorField cheeks = both_sides(bump({50, -58, 52}, 23) * shift({9, 0, 5.5})) +
+  const VectorField cheeks = both_sides(bump({51, -57, 51}, 25) * shift({11.5, 0, 7})) +
                              bump(mouth, {20, 14, 15}) * shift({0, 0, -1});
-  const VectorField kiss = bump(mouth, {30, 17, 25}) * stretch(mouth, {-0.5, 0, 0}) +
-                           bump(mouth, {16, 12, 22}) * shift({0, 0, 10}) +
+  const VectorField kiss = bump(mouth, {32, 14, 25}) * stretch(mouth, {-0.45, 0, 0}) +
+                           bump(mouth, {20, 14, 22}) * shift({0, 0, 9.5}) +
                            both_sides(bump({40, -60, 60}, 18) * shift({-2, 0, -2}));
-  const VectorField open_mouth = jaw_share(head) * turn({0, -10, 5}, Point::UnitX(), 13);
+  const VectorField open_mouth =
+      jaw_share(head) * (turn({0, -10, 5}, Point::UnitX(), 6) + shift({0, -15, 2}));
   const VectorField angry = both_sides(bump({15, 15, 85}, {15, 12, 20}) * shift({-2.5, -5, 1}) +
                                        bump({13, 8, 80}, {9, 9, 15}) * shift({-1.5, -1, 2}) +
                                        bump(head.corner, 14) * shift({-1, -4, 0}) +

@@ -51,7 +51,7 @@ class Solid {
 struct Focus {
   Eigen::Vector3d centre;
   double radius;
-  double gain;  ///< below 0.6
+  double gain;  ///< at most 0.6
 };
 
 /// How finely a solid is cut into triangles: samples are `spacing` mm apart at `centre`, and farther the

@@ -165,19 +165,23 @@ void relax(const Solid& solid, std::vector<Eigen::Vector3d>& vertices,
   }
 }
 
-/// A step of Newton's method towards the surface, of not more than `limit` mm.
-Eigen::Vector3d projected(const Solid& solid, const Eigen::Vector3d& point, double limit) {
+/// Steps of Newton's method towards the surface, none of more than `limit` mm.
+Eigen::Vector3d on_surface(const Solid& solid, Eigen::Vector3d point, double limit) {
+  constexpr int steps = 2;
   constexpr double h = 0.05;  // mm
   static const Eigen::Matrix<double, 3, 4> corners{{1, -1, -1, 1}, {1, -1, 1, -1}, {1, 1, -1, -1}};
-  double distance = 0;
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  for (int i = 0; i < 4; ++i) {
-    const double value = solid.distance(point + h * corners.col(i));
-    distance += value / 4;
-    gradient += corners.col(i) * value / (4 * h);
+  for (int step = 0; step < steps; ++step) {
+    double distance = 0;
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 4; ++i) {
+      const double value = solid.distance(point + h * corners.col(i));
+      distance += value / 4;
+      gradient += corners.col(i) * value / (4 * h);
+    }
+    const Eigen::Vector3d way = gradient * (distance / std::max(gradient.squaredNorm(), 0.1));
+    point -= way * std::min(1.0, limit / std::max(way.norm(), limit));
   }
-  const Eigen::Vector3d step = gradient * (distance / std::max(gradient.squaredNorm(), 0.1));
-  return point - step * std::min(1.0, limit / std::max(step.norm(), limit));
+  return point;
 }
 
 }  // namespace
@@ -189,7 +193,7 @@ Mesh polygonise(const Solid& solid, const Sampling& sampling) {
   for (const Eigen::Vector3f& vertex : mesh.vertices) vertices.push_back(vertex.cast<double>());
   for (int round = 0; round < rounds; ++round) relax(solid, vertices, mesh.triangles);
   for (std::size_t i = 0; i < vertices.size(); ++i)
-    mesh.vertices[i] = projected(solid, vertices[i], sampling.spacing / 2).cast<float>();
+    mesh.vertices[i] = on_surface(solid, vertices[i], sampling.spacing / 4).cast<float>();
   return mesh;
 }
 

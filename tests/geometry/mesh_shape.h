@@ -2,9 +2,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
+#include <cstddef>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -24,13 +25,13 @@ struct MeshShape {
 
 inline MeshShape shape_of(const Mesh& mesh) {
   MeshShape shape;
-  std::map<std::pair<int, int>, int> edges;
+  std::vector<std::pair<int, int>> edges;  // of each triangle, in its direction
   std::vector<bool> used(mesh.vertices.size(), false);
   shape.least_height = std::numeric_limits<double>::max();
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) {
-      ++edges[{triangle[k], triangle[(k + 1) % 3]}];
+      edges.emplace_back(triangle[k], triangle[(k + 1) % 3]);
       used.at(static_cast<std::size_t>(triangle[k])) = true;
       corners.col(k) = mesh.vertices.at(static_cast<std::size_t>(triangle[k])).cast<double>();
     }
@@ -40,12 +41,14 @@ inline MeshShape shape_of(const Mesh& mesh) {
     const double longest = std::max({a.norm(), b.norm(), (a - b).norm()});
     shape.least_height = std::min(shape.least_height, a.cross(b).norm() / std::max(longest, 1e-30));
   }
+  std::sort(edges.begin(), edges.end());
   int count = 0;
-  for (const auto& [edge, times] : edges) {
-    const bool has_opposite = edges.count({edge.second, edge.first}) > 0;
-    shape.repeated_edges += times > 1 ? 1 : 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const std::pair<int, int> opposite(edges[i].second, edges[i].first);
+    const bool has_opposite = std::binary_search(edges.begin(), edges.end(), opposite);
+    shape.repeated_edges += i > 0 && edges[i] == edges[i - 1] ? 1 : 0;
     shape.open_edges += has_opposite ? 0 : 1;
-    count += !has_opposite || edge.first < edge.second ? 1 : 0;
+    count += !has_opposite || edges[i] < opposite ? 1 : 0;
   }
   shape.unused_vertices = static_cast<int>(std::count(used.begin(), used.end(), false));
   shape.euler = static_cast<int>(mesh.vertices.size()) - count + static_cast<int>(mesh.triangles.size());
