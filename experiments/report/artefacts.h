@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/report/table.h"
+#include "experiments/report/view_data.h"
 #include "framework/geometry/surface.h"
 
 namespace pliant {
@@ -43,6 +45,22 @@ class Picture {
   mutable std::vector<std::uint8_t> png_;
 };
 
+/// A run in three dimensions. It is gathered when it is asked for first, and once for all who show it.
+class View {
+ public:
+  using Gather = std::function<ViewData()>;
+  explicit View(Gather gather) : gather_(std::move(gather)) {}
+
+  const ViewData& data() const {
+    if (!data_) data_ = gather_();
+    return *data_;
+  }
+
+ private:
+  Gather gather_;
+  mutable std::optional<ViewData> data_;
+};
+
 /// A surface with numbers at its points. All lists have one entry a point.
 struct NamedSurface {
   std::string name;                        ///< of its file, without ending
@@ -69,12 +87,14 @@ struct RunArtefacts : RunSummary {
   std::vector<Series> series = {};
   std::vector<Picture> pictures = {};
   std::vector<NamedSurface> surfaces = {};
+  std::optional<View> view = {};
 };
 
 /// The names of the artefacts that become files of their own.
 struct ArtefactNames {
   std::vector<std::string> pictures;
   std::vector<std::string> surfaces;
+  bool view = false;  ///< whether there is one
 };
 
 }  // namespace pliant

@@ -12,6 +12,7 @@ namespace pliant {
 namespace {
 
 std::string contents_html(const Page& page) {
+  if (page.contents.empty()) return "";
   std::string items;
   for (const auto& link : page.contents)
     items += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", html_escape(link.id), html_escape(link.title));
@@ -97,12 +98,15 @@ std::string html_id(const std::string& name) {
 }
 
 std::string html_page(const Page& page, const WebBundle& bundle) {
-  return head_html(page, bundle) + "<body id=\"top\"><div class=\"frame\">\n" + contents_html(page) +
+  const bool has_figures = page.body.find("-figure\"") != std::string::npos;
+  const WebBundle used = has_figures ? bundle : WebBundle{};
+  return head_html(page, used) + "<body id=\"top\"><div class=\"frame" +
+         (page.contents.empty() ? " plain" : "") + "\">\n" + contents_html(page) +
          fmt::format("<main><header><h1>{}</h1>\n<p class=\"lead\">{}</p></header>\n",
                      html_escape(page.title), html_escape(page.lead)) +
-         notice_html(bundle) + page.body + footer_html(bundle) + "</main></div>\n" +
+         (has_figures ? notice_html(bundle) : "") + page.body + footer_html(used) + "</main></div>\n" +
          script_html(std::string(embedded::experiments_report_web_tables_js)) +
-         (bundle.script.empty() ? "" : script_html(bundle.script)) + "</body></html>\n";
+         (used.script.empty() ? "" : script_html(used.script)) + "</body></html>\n";
 }
 
 }  // namespace pliant

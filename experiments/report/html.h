@@ -42,7 +42,7 @@ struct WebBundle {
 /// The one that was made when the program was built.
 const WebBundle& built_bundle();
 
-/// Without a bundle figures are pictures, and the page says so.
+/// Without a bundle figures are pictures, and the page says so. Pages without figures go without it anyway.
 std::string html_page(const Page& page, const WebBundle& bundle = built_bundle());
 
 }  // namespace pliant

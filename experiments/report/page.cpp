@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "experiments/report/base64.h"
 #include "experiments/report/chart_html.h"
 #include "experiments/report/html.h"
 #include "experiments/report/reports.h"
+#include "experiments/report/view_html.h"
 #include "framework/io/file.h"
 
 namespace pliant {
@@ -35,6 +37,16 @@ std::string series_html(const Series& series) {
   return chart_html(chart);
 }
 
+std::string series_html(const std::vector<Series>& all) {
+  std::string html;
+  for (const Series& series : all) html += series_html(series);
+  return html;
+}
+
+std::string columns_of(const std::string& html) {
+  return html.empty() ? "" : "<div class=\"columns\">\n" + html + "</div>\n";
+}
+
 std::string picture_grid(const std::vector<Picture>& pictures) {
   if (pictures.empty()) return "";
   std::string figures;
@@ -45,45 +57,54 @@ std::string picture_grid(const std::vector<Picture>& pictures) {
   return html_section("Pictures", "<div class=\"pictures\">\n" + figures + "</div>\n");
 }
 
+/// What the page shows first: the run itself, if it can be turned.
+std::string run_html(const RunArtefacts& run, bool with_view) {
+  return with_view && run.view ? view_html("In three dimensions", view_json(run.view->data())) : "";
+}
+
 class PageReport : public Report {
  public:
+  explicit PageReport(bool with_view) : with_view_(with_view) {}
   std::vector<std::string> files(const ArtefactNames&) const override { return {"index.html"}; }
   std::vector<std::filesystem::path> write(const RunArtefacts& run,
                                            const std::filesystem::path& folder) const override {
     const std::filesystem::path file = folder / "index.html";
-    const std::string page = make_page(run);
+    const std::string page = make_page(run, with_view_);
     write_file(file.string(), {page.begin(), page.end()});
     return {file};
   }
+
+ private:
+  bool with_view_;
 };
 
 }  // namespace
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr const char* alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? alphabet[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-std::string make_page(const RunArtefacts& run) {
-  std::string columns;
-  for (const Series& series : run.series) columns += series_html(series);
-  columns += tables_html(run.tables, false);
-  return html_page({run.name, run.lead,
-                    html_notes(run.notes) + tables_html(run.tables, true) + "<div class=\"columns\">\n" +
-                        columns + "</div>\n" + picture_grid(run.pictures)});
+std::string make_page(const RunArtefacts& run, bool with_view) {
+  Page page{run.name, run.lead, html_notes(run.notes)};
+  const auto add = [&](const std::string& id, const std::string& title, const std::string& html) {
+    if (html.empty()) return;
+    page.contents.push_back({id, title});
+    page.body += fmt::format("<div id=\"{}\">\n{}</div>\n", id, html);
+  };
+  add("view", "In three dimensions", run_html(run, with_view));
+  add("distances", "Distances", tables_html(run.tables, true));
+  add("steps", "Step by step", columns_of(series_html(run.series)));
+  add("numbers", "Numbers", columns_of(tables_html(run.tables, false)));
+  add("pictures", "Pictures", picture_grid(run.pictures));
+  return html_page(page);
 }
 
 void register_page_report(Registry& registry) {
-  registry.add<Report>("page", "index.html: metrics, energy, times and pictures on one page", {},
-                       [](const Parameters&, const Registry&) { return std::make_unique<PageReport>(); });
+  registry.add<Report>("page", "index.html: metrics, energy, times and pictures on one page",
+                       {
+                           boolean("view", true)
+                               .doc("Shows the run in three dimensions, which takes another "
+                                    "registration and a megabyte"),
+                       },
+                       [](const Parameters& parameters, const Registry&) {
+                         return std::make_unique<PageReport>(parameters.boolean("view"));
+                       });
 }
 
 }  // namespace pliant

@@ -4,6 +4,7 @@
 
 #include "experiments/report/chart_html.h"
 #include "experiments/report/findings_html.h"
+#include "experiments/report/view_html.h"
 
 namespace pliant {
 namespace {
@@ -51,13 +52,19 @@ std::string charts_html(const Study& study) {
   return "<div class=\"charts\">\n" + html + "</div>\n";
 }
 
+std::string views_html(const Study& study) {
+  std::string html;
+  for (const auto& view : study.views) html += view_html(view.title, read_view(view.file));
+  return html.empty() ? "" : "<div class=\"views\">\n" + html + "</div>\n";
+}
+
 std::string study_html(const Study& study) {
   std::string html = fmt::format("<article class=\"study\" id=\"{}\"><h2>{}</h2>\n", html_id(study.name),
                                  html_escape(study.title));
   if (!study.lead.empty()) html += "<p class=\"lead\">" + html_escape(study.lead) + "</p>\n";
   html += findings_html(study) + charts_html(study);
   for (const auto& table : study.tables) html += to_html(table);
-  return html + html_notes(study.notes) + experiment_html(study.experiment) +
+  return html + views_html(study) + html_notes(study.notes) + experiment_html(study.experiment) +
          environment_html(study.environment) + "</article>\n";
 }
 

@@ -1,4 +1,10 @@
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "experiments/tasks/drawings.h"
 #include "experiments/tasks/registration_artefacts.h"
+#include "experiments/tasks/registration_view.h"
 #include "framework/imaging/depth_map.h"
 #include "framework/tracking/register_pair.h"
 
@@ -19,11 +25,18 @@ Observer watching(const ProgressSink& progress, const std::string& label, const 
   };
 }
 
+/// Stands in for the view of a run.
+const Picture& picture_of_errors(const RunArtefacts& made) {
+  return *std::find_if(made.pictures.begin(), made.pictures.end(),
+                       [](const Picture& picture) { return picture.name() == "error_final"; });
+}
+
 class RegisterTask : public Task {
  public:
   ArtefactNames names() const override {
     return {{"depth_source", "depth_target", "error_initial", "error_aligned", "error_final", "graph"},
-            {"source", "target", "registered"}};
+            {"source", "target", "registered"},
+            true};
   }
 
   void check(const ExperimentRun& run, Workbench& workbench) const override {
@@ -35,12 +48,13 @@ class RegisterTask : public Task {
   RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const ProgressSink& progress,
                     int repeats) const override {
     const FramePair& pair = workbench.pair(run.values);
-    const Method method = make_method(run, workbench.registry());
+    const auto method_of_run = std::make_shared<const Method>(make_method(run, workbench.registry()));
+    const Method& method = *method_of_run;
     const auto seed = static_cast<std::uint64_t>(run.values.integer("seed"));
     Device& device = workbench.device(run.values);
     Timing timing;
     GraphGrowth growth;
-    const RegistrationResult result = told_with_place(run.place, pair, [&] {
+    RegistrationResult result = told_with_place(run.place, pair, [&] {
       return make_timed(device, repeats, timing, [&](const std::string& label) {
         return register_pair(pair, method, device, seed,
                              watching(progress, label, pair.name, method, growth));
@@ -48,8 +62,14 @@ class RegisterTask : public Task {
     });
     const SurfaceImage target = make_surface_image(device, pair.target, pair.camera);
     const Evaluation evaluation(pair, workbench.truth(run.values), result.source, target);
-    return registration_artefacts(run, pair, target, result, measure(evaluation, result, progress), growth,
-                                  timing);
+    const Measured measured = measure(evaluation, result, progress);
+    RunArtefacts made = registration_artefacts(run, pair, target, result, measured, growth, timing);
+    made.view.emplace([&pair, &truth = workbench.truth(run.values), &device, method_of_run, seed, progress,
+                       target, result = std::move(result), picture = picture_of_errors(made)] {
+      progress({"", 1, "registering once more, watched"});
+      return gather_view({pair, truth, *method_of_run, device, seed, result, target, picture});
+    });
+    return made;
   }
 };
 

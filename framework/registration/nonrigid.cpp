@@ -266,8 +266,11 @@ class Loop {
   }
 
   IterationView view() const {
-    return {iterations_, !termination_.empty(), history_.last(), *graph_, *matched_.constraints,
-            moved_,      meter_.per_point()};
+    return {iterations_,           !termination_.empty(),
+            history_.last(),       *graph_,
+            *matched_.constraints, moved_,
+            meter_.per_point(),    input_.rest,
+            problem_->unknowns()};
   }
 
   // --- the end ---

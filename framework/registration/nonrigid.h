@@ -18,6 +18,8 @@ struct IterationView {
   const Constraints& constraints;
   const PointSet& points;         ///< those that are followed, where they are now: mm, camera frame
   const Array<float>& residuals;  ///< of these, mm; -1 where a point has no match that is accepted
+  const PointSet& rest;           ///< all points of the source at rest
+  const Array<float>& unknowns;   ///< where they are now: warp() takes both with what the graph has
 };
 
 /// Called after each outer iteration. What it throws ends the registration and comes through.

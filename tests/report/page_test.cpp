@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "experiments/report/base64.h"
 #include "framework/io/file.h"
 #include "tests/report/sample_run.h"
 

@@ -51,12 +51,14 @@ TEST(StudyPage, OmitsWhatThereIsNot) {
 }
 
 TEST(HtmlPage, SaysSoWhereFiguresCannotMove) {
-  const Page page{"title", "lead", "body"};
+  const Page page{"title", "lead", "<figure class=\"chart-figure\"></figure>"};
   EXPECT_THAT(html_page(page, {}), HasSubstr("npm could not be reached"));
   const std::string moving = html_page(page, {"the script", "the style"});
   EXPECT_THAT(moving, Not(HasSubstr("npm could not be reached")));
   EXPECT_THAT(moving, HasSubstr("<script>\nthe script</script>"));
   EXPECT_THAT(moving, HasSubstr("the style</style>"));
+  const std::string bare = html_page({"title", "lead", "body"}, {"the script", "the style"});
+  for (const char* text : {"the script", "the style", "npm"}) EXPECT_THAT(bare, Not(HasSubstr(text)));
 }
 
 }  // namespace
