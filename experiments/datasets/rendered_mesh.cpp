@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "experiments/datasets/kinect_noise.h"
+#include "experiments/datasets/rigid_motion.h"
 #include "experiments/datasets/stored_pair.h"
 #include "experiments/datasets/texture.h"
 #include "experiments/datasets/virtual_camera.h"
@@ -75,23 +76,6 @@ void hide_left_part(DepthImage& depth, double share) {
 
 std::string described(const std::vector<std::string>& expression) {
   return expression.empty() ? "neutral" : fmt::format("{}", fmt::join(expression, " "));
-}
-
-ParameterTable motion_table() {
-  return {
-      real("rotation_x", 0).unit("degree").range(-180, 180).doc("about the camera's x axis, a nod"),
-      real("rotation_y", 0).unit("degree").range(-180, 180).doc("about its y axis, before, a shake"),
-      real("shift_x", 0).unit("mm").doc("to the right in the image"),
-      real("shift_y", 0).unit("mm").doc("down in the image"),
-      real("shift_z", 0).unit("mm").doc("away from the camera"),
-  };
-}
-
-Eigen::Affine3d motion_of(const Parameters& section) {
-  const auto radians = [&](const char* name) { return section.real(name) * std::numbers::pi / 180; };
-  return Eigen::Translation3d(section.real("shift_x"), section.real("shift_y"), section.real("shift_z")) *
-         Eigen::AngleAxisd(radians("rotation_x"), Eigen::Vector3d::UnitX()) *
-         Eigen::AngleAxisd(radians("rotation_y"), Eigen::Vector3d::UnitY());
 }
 
 }  // namespace
@@ -228,7 +212,7 @@ void register_rendered_mesh(Registry& registry) {
         settings.identity = parameters.words("identity");
         settings.source = parameters.words("source");
         settings.target = parameters.words("target");
-        settings.motion = motion_of(parameters.section("motion"));
+        settings.motion = read_motion(parameters.section("motion")).transform();
         settings.camera = virtual_camera(parameters);
         settings.distance = parameters.real("distance");
         settings.noise = parameters.real("noise");

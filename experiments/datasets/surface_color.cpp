@@ -14,8 +14,8 @@ namespace pliant {
 namespace {
 
 // The noise above which there is a freckle, and from there the noise at which it is darkest.
-constexpr float freckle_begin = 0.45F;
-constexpr float freckle_edge = 0.2F;
+constexpr float freckle_begin = 0.4F;
+constexpr float freckle_edge = 0.4F;
 
 using Cell = std::array<std::uint32_t, 3>;
 
@@ -69,7 +69,7 @@ SurfaceColor::SurfaceColor(Kind kind, std::uint64_t seed)
     noises_ = {Noise{40, third, key()}, Noise{16, third, key()}, Noise{7, third, key()}};
   else
     noises_ = {Noise{70, 10, key()}, Noise{25, 6, key()}, Noise{8, 3, key()}};
-  freckles_ = {5, kind == Kind::skin ? 40.0F : 0.0F, key()};
+  freckles_ = {5, kind == Kind::skin ? 30.0F : 0.0F, key()};
 }
 
 Array<cl_uchar> SurfaceColor::paint(Device& device, const MeshView& view, const Array<float>& rest) const {

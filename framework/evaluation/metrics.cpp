@@ -56,10 +56,12 @@ Evaluation::Evaluation(const FramePair& pair, const std::optional<PairTruth>& tr
   if (!truth) return;
   check(*truth, pair);
   for (std::size_t i = 0; i < source.size(); ++i) {
-    const Eigen::Vector3f flow = truth->scene_flow(source.pixels[i].x(), source.pixels[i].y());
+    const Eigen::Vector2i& pixel = source.pixels[i];
+    const Eigen::Vector3f flow = truth->scene_flow(pixel.x(), pixel.y());
     truth_.push_back(source.points[i] + flow);  // NaN where the flow is
     moving_.push_back(flow.norm() > moving_distance);
-    seen_.push_back(is_seen(truth_.back()));
+    seen_.push_back(truth->visible.empty() ? is_seen(truth_.back())
+                                           : truth->visible(pixel.x(), pixel.y()) != 0);
   }
 }
 

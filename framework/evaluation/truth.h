@@ -11,9 +11,15 @@ namespace pliant {
 struct PairTruth {
   /// Motion in mm (camera frame) of the surface point seen at each source pixel; NaN where it is unknown.
   Image<Eigen::Vector3f> scene_flow;
+  /// Pixels of the depth camera, from a source pixel to where its surface point is in the target's image; NaN
+  /// where it is unknown. Empty where none is known.
+  Image<Eigen::Vector2f> optical_flow = {};
+  /// Non-zero where the target shows the surface point of the source pixel. Empty where that is not known.
+  MaskImage visible = {};
 };
 
-/// Throws DataError, which names the pair and both sizes, unless the truth has the size of the pair's images.
+/// Throws DataError, which names the pair and both sizes, unless what is known has the size of the pair's
+/// images.
 void check(const PairTruth& truth, const FramePair& pair);
 
 }  // namespace pliant

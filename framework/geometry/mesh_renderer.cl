@@ -221,7 +221,7 @@ bool is_shown(float3 point, float3 normal, float2 at, float4 camera, int2 size, 
                         normal.y / camera.y * (convert_float4(v) - camera.w) + normal.z;
   const float footprint = point.z / fmin(camera.x, camera.y), reach = STEEPEST_SLOPE * footprint;
   const float4 expected = fmin(fmax(dot(normal, point) / facing, point.z - reach), point.z + reach);
-  const float tolerance = NEAREST_HIDING + footprint;
+  const float tolerance = NEAREST_HIDING + HIDING_PIXELS * footprint;
   const int4 before = shown > 0 && shown < expected - tolerance;
   const int4 same = shown > 0 && shown < expected + tolerance;
   const bool is_right = inside.x > 0.5f, is_lower = inside.y > 0.5f;

@@ -29,7 +29,8 @@ std::vector<cl_int> corners_of(const std::vector<Eigen::Vector3i>& triangles, st
 
 cl::Kernel kernel_of(Device& device, const char* name) {
   static const std::string options =
-      fmt::format("-DNEAREST_HIDING={:.9e}f -DSTEEPEST_SLOPE={:.9e}f", nearest_hiding, steepest_hiding_slope);
+      fmt::format("-DNEAREST_HIDING={:.9e}f -DHIDING_PIXELS={:.9e}f -DSTEEPEST_SLOPE={:.9e}f", nearest_hiding,
+                  hiding_pixels, steepest_hiding_slope);
   return device.kernel(embedded::framework_geometry_mesh_renderer_cl, name, options);
 }
 

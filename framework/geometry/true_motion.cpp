@@ -28,7 +28,7 @@ bool is_shown(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, const
   const auto first_u = static_cast<int>(std::floor(at.x()));
   const auto first_v = static_cast<int>(std::floor(at.y()));
   const double footprint = point.z() / std::min(camera.fx, camera.fy);
-  const double tolerance = nearest_hiding + footprint;
+  const double tolerance = nearest_hiding + hiding_pixels * footprint;
   for (int v = std::max(first_v, 0); v <= std::min(first_v + 1, depth.height() - 1); ++v) {
     for (int u = std::max(first_u, 0); u <= std::min(first_u + 1, depth.width() - 1); ++u) {
       const double expected =

@@ -9,9 +9,10 @@
 
 namespace pliant {
 
-/// A point counts as hidden by what is nearer to the camera by this, in mm, and the size of a pixel at the
-/// point's depth.
-inline constexpr double nearest_hiding = 1;
+/// A point counts as hidden by what is nearer to the camera by this, in mm, and a quarter of the size of a
+/// pixel at the point's depth.
+inline constexpr double nearest_hiding = 0.5;
+inline constexpr double hiding_pixels = 0.25;
 /// A surface that is steeper to the image than so : 1 is taken for one as steep.
 inline constexpr double steepest_hiding_slope = 8;
 
@@ -29,8 +30,8 @@ struct TrueMotion {
 
 /// Whether a view whose depth is `depth` (mm, 0: nothing) shows a point of a surface with this normal (of any
 /// length): at the pixel it projects to, the view shows the plane of its surface, and at none of the four
-/// pixels around it anything before that plane. What is within nearest_hiding and the size of a pixel of the
-/// plane is taken for it.
+/// pixels around it anything before that plane. What is nearer to the plane than hides a point (see above) is
+/// taken for it.
 bool is_shown(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, const Camera& camera,
               const DepthImage& depth);
 

@@ -155,7 +155,7 @@ TEST_F(RenderedSquare, AMeshThatCannotBeReadOrSeenIsAnError) {
   EXPECT_THAT(data_error_of([&] { load(", cx: 9000"); }), HasSubstr("square.glb: no pixel of the camera"));
   EXPECT_THAT(data_error_of([&] { load(", motion: {shift_z: -2000}"); }), HasSubstr("sees the target"));
   write("square.glb", "no mesh at all");
-  EXPECT_THAT(data_error_of([&] { data_of(section()); }), HasSubstr("not a binary glTF file"));
+  EXPECT_THAT(data_error_of([&] { data_of(section()); }), HasSubstr("not a glTF file"));
 }
 
 /// The pairs on which others were measured; the figures of the start are those that were published with them.

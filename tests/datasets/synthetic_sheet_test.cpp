@@ -15,10 +15,10 @@ namespace {
 
 using testing::config_error_of;
 using testing::data_of;
-using testing::shared_device;
 using ::testing::HasSubstr;
 using testing::load;
 using testing::LoadedPair;
+using testing::shared_device;
 
 using Check = std::function<void(int u, int v, const Eigen::Vector3d& point, const Eigen::Vector3d& motion)>;
 

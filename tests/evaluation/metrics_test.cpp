@@ -211,6 +211,33 @@ TEST(EndPointError, TellsWhatTheTargetShowsFromWhatItHides) {
   EXPECT_DOUBLE_EQ(errors.hidden_share, 0.75);
 }
 
+TEST(EndPointError, TakesVisibilityFromTheTruthWhereThatKnows) {
+  PairTruth truth{Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f(0, 0, 5))};
+  truth.visible = MaskImage(9, 7, 0);
+  truth.visible(0, 0) = 1;
+  const Points source{at_pixel(6, 2, 995), at_pixel(6, 1, 995)};  // both where the wall is seen
+  const Evaluation evaluation(blank_pair(), truth, surface_of(source), wall_with_hole());
+  Points moved = source;
+  moved[0].z() = 1001;
+  moved[1].z() = 1004;
+  const Metrics::Truth errors = evaluation.measure(moved).truth.value();
+  EXPECT_NEAR(errors.epe_seen_mean, 1, 1e-3);
+  EXPECT_NEAR(errors.epe_hidden_mean, 4, 1e-3);
+  EXPECT_DOUBLE_EQ(errors.hidden_share, 0.5);
+}
+
+TEST(EndPointError, TruthThatDoesNotFitIsAnError) {
+  PairTruth truth{Image<Eigen::Vector3f>(9, 7, Eigen::Vector3f::Zero())};
+  truth.visible = MaskImage(9, 6, 0);
+  EXPECT_THAT([&] { check(truth, blank_pair()); },
+              testing::ThrowsMessage<DataError>(testing::HasSubstr("pair: the visibility is 9 x 6 pixels")));
+  truth.visible = {};
+  truth.optical_flow = Image<Eigen::Vector2f>(1, 7, Eigen::Vector2f::Zero());
+  EXPECT_THAT(
+      [&] { check(truth, blank_pair()); },
+      testing::ThrowsMessage<DataError>(testing::HasSubstr("pair: the optical flow is 1 x 7 pixels")));
+}
+
 TEST(EndPointError, IsAbsentWhereNothingIsKnown) {
   const Points source{{0, 0, 1000}};
   EXPECT_TRUE(against_wall(source).end_point_errors(source).empty());

@@ -248,9 +248,9 @@ TEST(IsShown, LooksAtThePlaneOfThePoint) {
       depth(u, v) = static_cast<float>(normal.dot(point) / normal.dot(camera.unproject(u, v, 1)));
   EXPECT_TRUE(is_shown(point, normal, camera, depth));
   EXPECT_TRUE(is_shown(point, -normal, camera, depth)) << "either side";
-  EXPECT_TRUE(is_shown(point - Eigen::Vector3d(0, 0, 5), normal, camera, depth)) << "a pixel is 5 mm there";
-  EXPECT_FALSE(is_shown(point + Eigen::Vector3d(0, 0, 7), normal, camera, depth)) << "behind what is seen";
-  EXPECT_FALSE(is_shown(point - Eigen::Vector3d(0, 0, 7), normal, camera, depth)) << "not there";
+  EXPECT_TRUE(is_shown(point - Eigen::Vector3d(0, 0, 1.5), normal, camera, depth)) << "a pixel is 5 mm there";
+  EXPECT_FALSE(is_shown(point + Eigen::Vector3d(0, 0, 3), normal, camera, depth)) << "behind what is seen";
+  EXPECT_FALSE(is_shown(point - Eigen::Vector3d(0, 0, 3), normal, camera, depth)) << "not there";
   EXPECT_FALSE(is_shown({-120, 0, 500}, normal, camera, depth)) << "outside of the image";
   depth(21, 20) = 400;
   EXPECT_FALSE(is_shown(point, normal, camera, depth)) << "one of the four is before it";

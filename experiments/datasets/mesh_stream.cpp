@@ -1,0 +1,92 @@
+#include "experiments/datasets/mesh_stream.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "framework/core/error.h"
+#include "framework/geometry/point_set.h"
+
+namespace pliant {
+namespace {
+
+DepthImage depth_image(const Array<float>& depth, const Camera& camera) {
+  DepthImage image(camera.width, camera.height);
+  depth.copy_to(image.data());
+  return image;
+}
+
+}  // namespace
+
+MeshStream::MeshStream(std::shared_ptr<const MeshScene> scene, Device& device, std::uint64_t seed)
+    : scene_(std::move(scene)),
+      device_(device),
+      renderer_(device, scene_->mesh.triangles, scene_->mesh.vertices.size()),
+      sensor_(scene_->sensor, scene_->rig.depth, seed),
+      rest_(flatten(scene_->mesh.deform(scene_->mesh.rest()))) {}
+
+MeshStream::Seen MeshStream::see(int number) const {
+  const auto vertices = scene_->vertices_at(scene_->time_of(number));
+  if (is_inside(Eigen::Vector3d::Zero(), vertices, scene_->mesh.triangles))
+    throw DataError(fmt::format("{}: the camera is inside the mesh in frame {}; {}", scene_->what, number,
+                                scene_->described_size()));
+  Array<float> points = flatten(vertices);
+  MeshView view = renderer_.render(points, scene_->rig.depth);
+  return {std::move(points), std::move(view)};
+}
+
+std::optional<Frame> MeshStream::next() {
+  if (given_ == scene_->frames) return std::nullopt;
+  ++given_;
+  Seen seen = see(given_);
+  Frame frame;
+  frame.time = scene_->time_of(given_);
+  frame.color = color_of(seen);
+  frame.depth = depth_image(seen.view.depth, scene_->rig.depth);
+  check_is_seen(frame.depth, given_);
+  if (scene_->sensor.is_on())
+    frame.depth = depth_image(sensor_.sense(device_, seen.view.depth, static_cast<std::uint32_t>(given_)),
+                              scene_->rig.depth);
+  if (given_ == 1) first_ = std::move(seen);
+  return frame;
+}
+
+ColorImage MeshStream::color_of(const Seen& seen) const {
+  const Rig& rig = scene_->rig;
+  const auto painted = [&](const MeshView& view) {
+    return read_colors(scene_->color.paint(device_, view, renderer_.interpolate(view, rest_)), view.camera);
+  };
+  if (!rig.color) return painted(seen.view);
+  std::vector<Eigen::Vector3f> vertices = unflatten(seen.vertices);
+  const Eigen::Isometry3f color_from_depth = rig.color_from_depth.cast<float>();
+  for (Eigen::Vector3f& vertex : vertices) vertex = color_from_depth * vertex;
+  return painted(renderer_.render(flatten(vertices), *rig.color));
+}
+
+void MeshStream::check_is_seen(const DepthImage& exact, int number) const {
+  const auto& pixels = exact.pixels();
+  if (std::any_of(pixels.begin(), pixels.end(), [](float depth) { return depth > 0; })) return;
+  throw DataError(
+      fmt::format("{}: no pixel of the camera sees the mesh in frame {}; {}, and its middle {:.6g} mm from "
+                  "the first camera",
+                  scene_->what, number, scene_->described_size(), scene_->distance));
+}
+
+std::optional<PairTruth> MeshStream::truth(int number) const {
+  if (number < 2 || number > scene_->frames) return std::nullopt;
+  if (!first_) first_ = see(1);
+  const Seen target = see(number);
+  TrueMotion motion = renderer_.move(first_->view, target.vertices, target.view).read(scene_->rig.depth);
+  return PairTruth{std::move(motion.scene_flow), std::move(motion.optical_flow), std::move(motion.visible)};
+}
+
+DepthImage MeshStream::exact_depth(int number) const {
+  return depth_image(see(number).view.depth, scene_->rig.depth);
+}
+
+Eigen::Isometry3d MeshStream::scene_from_camera(int number) const {
+  return scene_->state_at(scene_->time_of(number)).camera.camera_from_scene().inverse();
+}
+
+}  // namespace pliant
