@@ -96,15 +96,16 @@ std::string make_page(const RunArtefacts& run, bool with_view) {
 }
 
 void register_page_report(Registry& registry) {
-  registry.add<Report>("page", "index.html: metrics, energy, times and pictures on one page",
-                       {
-                           boolean("view", true)
-                               .doc("Shows the run in three dimensions, which takes another "
-                                    "registration and a megabyte"),
-                       },
-                       [](const Parameters& parameters, const Registry&) {
-                         return std::make_unique<PageReport>(parameters.boolean("view"));
-                       });
+  registry.add<Report>(
+      "page", "index.html: metrics, energy, times and pictures on one page",
+      {
+          boolean("view").optional().doc(
+              "Whether it shows the run in three dimensions, for which it is registered once more; "
+              "true by default"),
+      },
+      [](const Parameters& parameters, const Registry&) {
+        return std::make_unique<PageReport>(!parameters.has("view") || parameters.boolean("view"));
+      });
 }
 
 }  // namespace pliant

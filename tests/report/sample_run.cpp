@@ -52,7 +52,6 @@ std::unique_ptr<Report> make_report(const std::string& name) {
   register_reports(registry);
   std::vector<Parameters::Value> values;
   if (name == "surfaces") values.push_back({"depth_step", 20.0});
-  if (name == "page") values.push_back({"view", true});
   return registry.make<Report>(Parameters(name, values));
 }
 
