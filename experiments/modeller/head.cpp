@@ -1,5 +1,7 @@
 #include "experiments/modeller/head.h"
 
+#include <cmath>
+
 #include "experiments/modeller/figures.h"
 #include "experiments/modeller/implicit.h"
 
@@ -59,39 +61,41 @@ void add_nose(Solid& solid, const HeadMeasures& head) {
   const Eigen::Vector3d root(0, 5, 80);
   const Eigen::Vector3d bridge = 0.5 * (root + tip) + Eigen::Vector3d(0, 0, 1.5);
   solid.add_pair(tube({{{5, 2, 74}, 6}, {tip + Eigen::Vector3d(8, 0, -16), 9}}), 12);
-  solid.add(tube({{root, 7}, {bridge, 7}, {tip, 9}, {tip + Eigen::Vector3d(0, -7, -9), 5}}, 6), 10);
+  solid.add(tube({{root, 7}, {bridge, 7}, {tip, 9}, {tip + Eigen::Vector3d(0, -7.5, -8), 5}}, 6), 10);
   solid.add_pair(ellipsoid(tip + Eigen::Vector3d(11, -3, -11), {6.5, 7.2, 9}, turned(0, 25, 0)), 9);
   // The rims of the nostrils, then these.
-  solid.add_pair(tube({{tip + Eigen::Vector3d(4, -6, 1), 3.5}, {tip + Eigen::Vector3d(12, -6.5, -7), 4}}), 5);
-  solid.cut_pair(ellipsoid(tip + Eigen::Vector3d(6.3, -10.5, -3), {2.8, 5, 3.5}, turned(-20, 0, 0)), 2);
+  solid.add_pair(tube({{tip + Eigen::Vector3d(4.5, -7, 0.5), 3.6}, {tip + Eigen::Vector3d(12, -7, -7), 4}}),
+                 5);
+  solid.press_pair(ellipsoid(tip + Eigen::Vector3d(6.6, -10, -3), {4, 6, 4.6}, turned(0, -20, 0)), 2.6, 3);
+}
+
+/// From one corner of the mouth to the other. Beads are of its left half and relative to the mouth's middle.
+Shape lip(const HeadMeasures& head, const Bead& middle, const Bead& side) {
+  const Eigen::Vector3d corner = head.corner - head.mouth;
+  const Bead end{{corner.x(), std::copysign(0.8, middle.centre.y()), corner.z()}, 2.2};
+  std::vector<Bead> beads;
+  for (const Bead& bead : {end, side, middle}) {
+    const Eigen::Vector3d& p = bead.centre;
+    beads.push_back({head.mouth + Eigen::Vector3d(-p.x(), p.y(), p.z()), bead.radius});
+  }
+  for (const Bead& bead : {middle, side, end}) beads.push_back({head.mouth + bead.centre, bead.radius});
+  return tube(beads, 3);
 }
 
 void add_mouth(Solid& solid, const HeadMeasures& head) {
   const Eigen::Vector3d& m = head.mouth;
   solid.add(ellipsoid(m + Eigen::Vector3d(0, 2, -27), {34, 28, 24}), 18);
+  // The groove between nose and mouth, its sides, and the hollow above the chin.
   solid.raise({0, m.y() + 12, m.z() + 4}, {3.2, 6, 8}, -0.8);
   solid.raise_pair({5, m.y() + 11, m.z() + 4}, {3, 5, 8}, 0.3);
   solid.raise({0, m.y() - 18, m.z()}, {20, 6, 14}, -2.5);
-  // The cavity of the mouth, and lips around its opening.
+  // The cavity of the mouth, its opening, and lips around it.
   solid.cut(ellipsoid(m + Eigen::Vector3d(0, 0, -29), {22, 13, 19}), 4);
   solid.cut(ellipsoid(m + Eigen::Vector3d(0, 0, -12), {head.corner.x() - 1, 7, 26}), 2);
-  const double c = head.corner.x();
-  const double back = head.corner.z() - m.z();
-  const auto lip = [&](const Bead& middle, const Bead& side) {
-    const auto at = [&](double x, double y, double z, double radius) {
-      return Bead{m + Eigen::Vector3d(x, y, z), radius};
-    };
-    const double upwards = middle.centre.y() > 0 ? 1 : -1;
-    const Eigen::Vector3d& a = middle.centre;
-    const Eigen::Vector3d& b = side.centre;
-    return tube({at(-c, 0.8 * upwards, back, 2.2), at(-b.x(), b.y(), b.z(), side.radius),
-                 at(-a.x(), a.y(), a.z(), middle.radius), at(a.x(), a.y(), a.z(), middle.radius),
-                 at(b.x(), b.y(), b.z(), side.radius), at(c, 0.8 * upwards, back, 2.2)},
-                3);
-  };
+  const double side = 0.55 * head.corner.x();
   const double t = head.lips;
-  solid.add(lip({{3.5, 2 + 4.2 * t, 0.5}, 4.2 * t}, {{0.55 * c, 1.6 + 3.4 * t, -3}, 3.4 * t}), 3);
-  solid.add(lip({{3, -2 - 5.4 * t, -1.5}, 5.4 * t}, {{0.55 * c, -1.6 - 4.3 * t, -4}, 4.3 * t}), 3);
+  solid.add(lip(head, {{3.5, 2 + 4.2 * t, 0.5}, 4.2 * t}, {{side, 1.6 + 3.4 * t, -3}, 3.4 * t}), 3);
+  solid.add(lip(head, {{3, -2 - 5.4 * t, -1.5}, 5.4 * t}, {{side, -1.6 - 4.3 * t, -4}, 4.3 * t}), 3);
 }
 
 void add_ears(Solid& solid, const HeadMeasures& head) {
