@@ -24,14 +24,14 @@ ParameterTable identity_table() {
 
 void add_skull(Solid& solid, const HeadMeasures& head) {
   solid.add(ellipsoid({0, 25, -6}, {head.half_width, 87, 97}), 0);
-  solid.add(ellipsoid({0, -38, 28}, {59, 78, 57}), 25);
+  solid.add(ellipsoid({0, -38, 28}, {head.jaw + 8, 78, 57}), 25);
   // Jaw, from below the ear to the chin.
   solid.add_pair(
       tube({{{head.jaw - 15, -52, 2}, 14}, {{head.jaw - 18, -78, 18}, 13}, {{13, -102, 66}, 11}}, 14), 22);
   solid.add(ellipsoid({0, -99, 70 + head.chin}, {19, 15, 16}), 14);
   // Cheekbones and brow.
   solid.add_pair(tube({{{60, -10, 8}, 7}, {{50, -19, 48}, 9}, {{36, -26, 64}, 10}}, 12), 18);
-  solid.add_pair(ellipsoid({34, -54, 50}, {24, 30, 24}), 22);
+  solid.add_pair(ellipsoid({head.jaw - 16.5, -54, 50}, {24, 30, 24}), 22);
   solid.add_pair(tube({{{6, 18, 78}, 7}, {{28, 23, 74.5}, 7}, {{54, 9, 46}, 5}}, 10), 20);
   solid.raise_pair({22, 19, 86}, {20, 7, 20}, head.brow);
   solid.raise_pair({47, -54, 55}, {18, 22, 22}, head.cheek_fullness);
@@ -160,8 +160,8 @@ HeadMeasures::HeadMeasures(const Parameters& identity)
       chin(identity.real("chin")),
       eye(31.5, -2, 67),
       nose_tip(0, 11 - identity.real("nose_length"), 101),
-      mouth(0, -69, 90),
-      corner(26, -69, 78) {}
+      mouth(0, -50 - 0.4 * identity.real("nose_length"), 90),
+      corner(26, mouth.y(), 78) {}
 
 FigureKind head_figure() {
   return {"head", "A head with a face that can smile, speak and frown", identity_table(), make_head};

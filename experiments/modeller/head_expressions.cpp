@@ -43,8 +43,9 @@ VectorField mouth_closing(const HeadMeasures& head) {
 
 std::vector<MorphTarget> head_targets(const HeadMeasures& head, const std::vector<Point>& points) {
   const Point& mouth = head.mouth;
-  const VectorField cheeks = both_sides(bump({51, -57, 51}, 25) * shift({11.5, 0, 7})) +
-                             bump(mouth, {20, 14, 15}) * shift({0, 0, -1});
+  const Point cheek(head.jaw + 1 + 0.7 * head.cheek_fullness, -57, 51 + 0.4 * head.cheek_fullness);
+  const VectorField cheeks =
+      both_sides(bump(cheek, 25) * shift({11.5, 0, 7})) + bump(mouth, {20, 14, 15}) * shift({0, 0, -1});
   const VectorField kiss = bump(mouth, {32, 14, 25}) * stretch(mouth, {-0.45, 0, 0}) +
                            bump(mouth, {20, 14, 22}) * shift({0, 0, 9.5}) +
                            both_sides(bump({40, -60, 60}, 18) * shift({-2, 0, -2}));
