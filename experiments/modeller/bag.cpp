@@ -54,13 +54,14 @@ Solid bag_solid(const BagMeasures& bag) {
 
 /// Bands across the bag, each of which bends a part of the fold.
 Skeleton bag_skeleton(const BagMeasures& bag) {
+  constexpr double blend = 30;
+  const double fold = -0.12 * bag.height;
+  const auto band = [](double low, double high) { return Bone{{0, low, 0}, {0, high, 0}, 0}; };
   Skeleton skeleton;
-  const double from = -0.12 * bag.height;
-  const auto band = [&](double low, double high) { return Bone{{0, low, 0}, {0, high, 0}, 0, 30}; };
-  skeleton.add("lower", "", band(-bag.height, from - 25));
-  skeleton.add("fold_1", "lower", band(from - 20, from + 20));
-  skeleton.add("fold_2", "fold_1", band(from + 25, from + 65));
-  skeleton.add("upper", "fold_2", band(from + 70, 1.6 * bag.height));
+  skeleton.add("lower", "", band(-bag.height, fold - 25), blend);
+  skeleton.add("fold_1", "lower", band(fold - 20, fold + 20), blend);
+  skeleton.add("fold_2", "fold_1", band(fold + 25, fold + 65), blend);
+  skeleton.add("upper", "fold_2", band(fold + 70, 1.6 * bag.height), blend);
   return skeleton;
 }
 

@@ -95,21 +95,21 @@ Skeleton body_skeleton(const Arm& arm) {
   const Point forward = Point::UnitZ();
   const Point right(-1, 0, 0);
   Skeleton skeleton;
-  skeleton.add("pelvis", "", {pelvis - Point(0, 40, 0), pelvis + Point(0, 60, 0), 120, 70}, right);
-  skeleton.add("chest", "pelvis", {chest - Point(0, 180, 0), chest + Point(0, 110, 0), 120, 70}, right);
-  skeleton.add("head", "chest", {neck + Point(0, 30, 0), {0, 1720, 0}, 70, 60}, right);
+  skeleton.add("pelvis", "", {pelvis - Point(0, 40, 0), pelvis + Point(0, 60, 0), 120}, 70, right);
+  skeleton.add("chest", "pelvis", {chest - Point(0, 180, 0), chest + Point(0, 110, 0), 120}, 70, right);
+  skeleton.add("head", "chest", {neck + Point(0, 30, 0), {0, 1720, 0}, 70}, 60, right);
   for (const double side : {1.0, -1.0}) {
     const std::string name = side > 0 ? "left" : "right";
     const auto mirror = [side](const Point& p) -> Point { return {side * p.x(), p.y(), p.z()}; };
     const Point middle = arm.shoulder + 0.12 * (arm.elbow - arm.shoulder);
-    skeleton.add("clavicle_" + name, "chest", {mirror({60, 1435, -16}), mirror(arm.shoulder), 45, 80},
+    skeleton.add("clavicle_" + name, "chest", {mirror({60, 1435, -16}), mirror(arm.shoulder), 45}, 80,
                  forward);
-    skeleton.add("shoulder_" + name, "clavicle_" + name, {mirror(middle), mirror(arm.elbow), 38, 75},
+    skeleton.add("shoulder_" + name, "clavicle_" + name, {mirror(middle), mirror(arm.elbow), 38}, 75,
                  forward);
-    skeleton.add("elbow_" + name, "shoulder_" + name, {mirror(arm.elbow), mirror(arm.wrist), 34, 45},
+    skeleton.add("elbow_" + name, "shoulder_" + name, {mirror(arm.elbow), mirror(arm.wrist), 34}, 45,
                  forward);
-    skeleton.add("wrist_" + name, "elbow_" + name, {mirror(arm.wrist), mirror(arm.fingers), 26, 30}, forward);
-    skeleton.add("hip_" + name, "pelvis", {mirror(hip), mirror(knee), 80, 70}, right);
+    skeleton.add("wrist_" + name, "elbow_" + name, {mirror(arm.wrist), mirror(arm.fingers), 26}, 30, forward);
+    skeleton.add("hip_" + name, "pelvis", {mirror(hip), mirror(knee), 80}, 70, right);
   }
   return skeleton;
 }

@@ -71,7 +71,7 @@ VectorField mirrored(VectorField field) {
   };
 }
 
-VectorField both_sides(VectorField field) { return field + mirrored(field); }
+VectorField both_sides(const VectorField& field) { return field + mirrored(field); }
 
 MorphTarget target(const std::string& name, const VectorField& field, const std::vector<Point>& points) {
   MorphTarget made{name, {}};

@@ -40,7 +40,7 @@ VectorField operator+(VectorField a, VectorField b);
 
 ScalarField inverse(ScalarField field);  ///< 1 - field
 /// The field and its mirror image in the plane x = 0.
-VectorField both_sides(VectorField field);
+VectorField both_sides(const VectorField& field);
 VectorField mirrored(VectorField field);
 
 /// The field at these points.

@@ -84,22 +84,21 @@ Solid hand_solid(const std::vector<Finger>& fingers) {
 
 Skeleton hand_skeleton(const std::vector<Finger>& fingers) {
   Skeleton skeleton;
-  skeleton.add("forearm", "", {{0, -60, -2}, {0, -8, -2}, 20, 14});
-  skeleton.add("wrist", "forearm", {{0, 0, -2}, {3, 82, -2}, 13, 8});
+  skeleton.add("forearm", "", {{0, -60, -2}, {0, -8, -2}, 20}, 14);
+  skeleton.add("wrist", "forearm", {{0, 0, -2}, {3, 82, -2}, 13}, 8);
   for (const Finger& finger : fingers) {
     const Eigen::Vector3d& knuckle = finger.points[0];
     if (finger.name != "thumb")
-      skeleton.also({{knuckle.x() / 3, 5, -2}, knuckle - Eigen::Vector3d(0, 4, 0), 12, 8});
+      skeleton.also({{knuckle.x() / 3, 5, -2}, knuckle - Eigen::Vector3d(0, 4, 0), 12});
   }
   for (const Finger& finger : fingers) {
     std::string parent = "wrist";
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string joint = finger.name + "_" + std::to_string(i + 1);
-      const double blend = joint == "thumb_1" ? 22 : 7;
-      skeleton.add(
-          joint, parent,
-          {finger.points[i], finger.points[i + 1], joint == "thumb_1" ? 5 : finger.radii[i + 1], blend},
-          finger.bend_axis);
+      // The ball of the thumb belongs to the palm as well, and gives way over all its width.
+      const bool is_ball = joint == "thumb_1";
+      const Bone bone{finger.points[i], finger.points[i + 1], is_ball ? 5 : finger.radii[i + 1]};
+      skeleton.add(joint, parent, bone, is_ball ? 22 : 7, finger.bend_axis);
       parent = joint;
     }
   }

@@ -1,5 +1,7 @@
 #include "experiments/modeller/head.h"
 
+#include <cmath>
+
 #include "experiments/modeller/figures.h"
 #include "experiments/modeller/implicit.h"
 
@@ -22,14 +24,14 @@ ParameterTable identity_table() {
 
 void add_skull(Solid& solid, const HeadMeasures& head) {
   solid.add(ellipsoid({0, 25, -6}, {head.half_width, 87, 97}), 0);
-  solid.add(ellipsoid({0, -38, 28}, {59, 78, 57}), 25);
+  solid.add(ellipsoid({0, -38, 28}, {head.jaw + 8, 78, 57}), 25);
   // Jaw, from below the ear to the chin.
   solid.add_pair(
       tube({{{head.jaw - 15, -52, 2}, 14}, {{head.jaw - 18, -78, 18}, 13}, {{13, -102, 66}, 11}}, 14), 22);
   solid.add(ellipsoid({0, -99, 70 + head.chin}, {19, 15, 16}), 14);
   // Cheekbones and brow.
   solid.add_pair(tube({{{60, -10, 8}, 7}, {{50, -19, 48}, 9}, {{36, -26, 64}, 10}}, 12), 18);
-  solid.add_pair(ellipsoid({34, -54, 50}, {24, 30, 24}), 22);
+  solid.add_pair(ellipsoid({head.jaw - 16.5, -54, 50}, {24, 30, 24}), 22);
   solid.add_pair(tube({{{6, 18, 78}, 7}, {{28, 23, 74.5}, 7}, {{54, 9, 46}, 5}}, 10), 20);
   solid.raise_pair({22, 19, 86}, {20, 7, 20}, head.brow);
   solid.raise_pair({47, -54, 55}, {18, 22, 22}, head.cheek_fullness);
@@ -59,39 +61,41 @@ void add_nose(Solid& solid, const HeadMeasures& head) {
   const Eigen::Vector3d root(0, 5, 80);
   const Eigen::Vector3d bridge = 0.5 * (root + tip) + Eigen::Vector3d(0, 0, 1.5);
   solid.add_pair(tube({{{5, 2, 74}, 6}, {tip + Eigen::Vector3d(8, 0, -16), 9}}), 12);
-  solid.add(tube({{root, 7}, {bridge, 7}, {tip, 9}, {tip + Eigen::Vector3d(0, -7, -9), 5}}, 6), 10);
+  solid.add(tube({{root, 7}, {bridge, 7}, {tip, 9}, {tip + Eigen::Vector3d(0, -7.5, -8), 5}}, 6), 10);
   solid.add_pair(ellipsoid(tip + Eigen::Vector3d(11, -3, -11), {6.5, 7.2, 9}, turned(0, 25, 0)), 9);
   // The rims of the nostrils, then these.
-  solid.add_pair(tube({{tip + Eigen::Vector3d(4, -6, 1), 3.5}, {tip + Eigen::Vector3d(12, -6.5, -7), 4}}), 5);
-  solid.cut_pair(ellipsoid(tip + Eigen::Vector3d(6.3, -10.5, -3), {2.8, 5, 3.5}, turned(-20, 0, 0)), 2);
+  solid.add_pair(tube({{tip + Eigen::Vector3d(4.5, -7, 0.5), 3.6}, {tip + Eigen::Vector3d(12, -7, -7), 4}}),
+                 5);
+  solid.press_pair(ellipsoid(tip + Eigen::Vector3d(6.6, -10, -3), {4, 6, 4.6}, turned(0, -20, 0)), 2.6, 3);
+}
+
+/// From one corner of the mouth to the other. Beads are of its left half and relative to the mouth's middle.
+Shape lip(const HeadMeasures& head, const Bead& middle, const Bead& side) {
+  const Eigen::Vector3d corner = head.corner - head.mouth;
+  const Bead end{{corner.x(), std::copysign(0.8, middle.centre.y()), corner.z()}, 2.2};
+  std::vector<Bead> beads;
+  for (const Bead& bead : {end, side, middle}) {
+    const Eigen::Vector3d& p = bead.centre;
+    beads.push_back({head.mouth + Eigen::Vector3d(-p.x(), p.y(), p.z()), bead.radius});
+  }
+  for (const Bead& bead : {middle, side, end}) beads.push_back({head.mouth + bead.centre, bead.radius});
+  return tube(beads, 3);
 }
 
 void add_mouth(Solid& solid, const HeadMeasures& head) {
   const Eigen::Vector3d& m = head.mouth;
   solid.add(ellipsoid(m + Eigen::Vector3d(0, 2, -27), {34, 28, 24}), 18);
+  // The groove between nose and mouth, its sides, and the hollow above the chin.
   solid.raise({0, m.y() + 12, m.z() + 4}, {3.2, 6, 8}, -0.8);
   solid.raise_pair({5, m.y() + 11, m.z() + 4}, {3, 5, 8}, 0.3);
   solid.raise({0, m.y() - 18, m.z()}, {20, 6, 14}, -2.5);
-  // The cavity of the mouth, and lips around its opening.
+  // The cavity of the mouth, its opening, and lips around it.
   solid.cut(ellipsoid(m + Eigen::Vector3d(0, 0, -29), {22, 13, 19}), 4);
   solid.cut(ellipsoid(m + Eigen::Vector3d(0, 0, -12), {head.corner.x() - 1, 7, 26}), 2);
-  const double c = head.corner.x();
-  const double back = head.corner.z() - m.z();
-  const auto lip = [&](const Bead& middle, const Bead& side) {
-    const auto at = [&](double x, double y, double z, double radius) {
-      return Bead{m + Eigen::Vector3d(x, y, z), radius};
-    };
-    const double upwards = middle.centre.y() > 0 ? 1 : -1;
-    const Eigen::Vector3d& a = middle.centre;
-    const Eigen::Vector3d& b = side.centre;
-    return tube({at(-c, 0.8 * upwards, back, 2.2), at(-b.x(), b.y(), b.z(), side.radius),
-                 at(-a.x(), a.y(), a.z(), middle.radius), at(a.x(), a.y(), a.z(), middle.radius),
-                 at(b.x(), b.y(), b.z(), side.radius), at(c, 0.8 * upwards, back, 2.2)},
-                3);
-  };
+  const double side = 0.55 * head.corner.x();
   const double t = head.lips;
-  solid.add(lip({{3.5, 2 + 4.2 * t, 0.5}, 4.2 * t}, {{0.55 * c, 1.6 + 3.4 * t, -3}, 3.4 * t}), 3);
-  solid.add(lip({{3, -2 - 5.4 * t, -1.5}, 5.4 * t}, {{0.55 * c, -1.6 - 4.3 * t, -4}, 4.3 * t}), 3);
+  solid.add(lip(head, {{3.5, 2 + 4.2 * t, 0.5}, 4.2 * t}, {{side, 1.6 + 3.4 * t, -3}, 3.4 * t}), 3);
+  solid.add(lip(head, {{3, -2 - 5.4 * t, -1.5}, 5.4 * t}, {{side, -1.6 - 4.3 * t, -4}, 4.3 * t}), 3);
 }
 
 void add_ears(Solid& solid, const HeadMeasures& head) {
@@ -156,8 +160,8 @@ HeadMeasures::HeadMeasures(const Parameters& identity)
       chin(identity.real("chin")),
       eye(31.5, -2, 67),
       nose_tip(0, 11 - identity.real("nose_length"), 101),
-      mouth(0, -69, 90),
-      corner(26, -69, 78) {}
+      mouth(0, -50 - 0.4 * identity.real("nose_length"), 90),
+      corner(26, mouth.y(), 78) {}
 
 FigureKind head_figure() {
   return {"head", "A head with a face that can smile, speak and frown", identity_table(), make_head};

@@ -30,7 +30,8 @@ ScalarField jaw_share(const HeadMeasures& head) {
 
 VectorField smile(const HeadMeasures& head) {
   return bump(head.corner, 17) * shift({6, 6, -5}) + bump({41, -34, 66}, 19) * shift({1, 4, 3.5}) +
-         bump(head.corner + Point(-12, 0, 8), 12) * shift({1, -1, -2});
+         bump(head.corner + Point(-12, 0, 8), 12) * shift({1, -1, -2}) +
+         bump(head.eye + Point(0, -6, 12), {14, 5, 12}) * shift({0, 1.5, 0});
 }
 
 }  // namespace
@@ -42,8 +43,9 @@ VectorField mouth_closing(const HeadMeasures& head) {
 
 std::vector<MorphTarget> head_targets(const HeadMeasures& head, const std::vector<Point>& points) {
   const Point& mouth = head.mouth;
-  const VectorField cheeks = both_sides(bump({51, -57, 51}, 25) * shift({11.5, 0, 7})) +
-                             bump(mouth, {20, 14, 15}) * shift({0, 0, -1});
+  const Point cheek(head.jaw + 1 + 0.7 * head.cheek_fullness, -57, 51 + 0.4 * head.cheek_fullness);
+  const VectorField cheeks =
+      both_sides(bump(cheek, 25) * shift({11.5, 0, 7})) + bump(mouth, {20, 14, 15}) * shift({0, 0, -1});
   const VectorField kiss = bump(mouth, {32, 14, 25}) * stretch(mouth, {-0.45, 0, 0}) +
                            bump(mouth, {20, 14, 22}) * shift({0, 0, 9.5}) +
                            both_sides(bump({40, -60, 60}, 18) * shift({-2, 0, -2}));
@@ -52,7 +54,8 @@ std::vector<MorphTarget> head_targets(const HeadMeasures& head, const std::vecto
   const VectorField angry = both_sides(bump({15, 15, 85}, {15, 12, 20}) * shift({-2.5, -5, 1}) +
                                        bump({13, 8, 80}, {9, 9, 15}) * shift({-1.5, -1, 2}) +
                                        bump(head.corner, 14) * shift({-1, -4, 0}) +
-                                       bump(head.nose_tip + Point(11, -3, -11), 9) * shift({1.5, 2.5, 0}));
+                                       bump(head.nose_tip + Point(11, -3, -11), 9) * shift({1.5, 2.5, 0}) +
+                                       bump(head.eye + Point(-2, 6, 13), {13, 5, 12}) * shift({0, -2, 0}));
   return {target("smile_left", smile(head), points), target("smile_right", mirrored(smile(head)), points),
           target("cheeks", cheeks, points),          target("kiss", kiss, points),
           target("open_mouth", open_mouth, points),  target("angry", angry, points)};

@@ -33,7 +33,7 @@ Shape rounded_box(const Eigen::Vector3d& centre, const Eigen::Vector3d& half_siz
 /// All balls whose middles lie between two neighbouring beads, their radii between those of the beads: a
 /// chain of tapered capsules. The chain is smooth where it turns by `blend` mm.
 Shape tube(const std::vector<Bead>& beads, double blend = 0);
-/// All that is behind the plane through a point, as seen along its normal.
+/// All that is behind the plane through a point, as seen along its normal. It has no end: to be cut away.
 Shape half_space(const Eigen::Vector3d& point, const Eigen::Vector3d& normal);
 
 /// Its image in the plane x = 0.

@@ -26,7 +26,7 @@ Eigen::Affine3d frame_of(const Bone& bone, const Eigen::Vector3d& x_axis) {
 
 }  // namespace
 
-Skeleton& Skeleton::add(const std::string& joint, const std::string& parent, const Bone& bone,
+Skeleton& Skeleton::add(const std::string& joint, const std::string& parent, const Bone& bone, double blend,
                         const Eigen::Vector3d& x_axis) {
   Joint made;
   made.name = joint;
@@ -40,7 +40,7 @@ Skeleton& Skeleton::add(const std::string& joint, const std::string& parent, con
     made.parent = static_cast<int>(found - parts_.begin());
     made.rest = found->joint.joint_from_mesh * frame;
   }
-  parts_.push_back({made, {bone}});
+  parts_.push_back({made, {bone}, blend});
   return *this;
 }
 
@@ -67,7 +67,7 @@ JointWeights Skeleton::weights_at(const Eigen::Vector3d& point) const {
   const double nearest = *std::min_element(distances.begin(), distances.end());
   std::vector<std::pair<double, int>> shares;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const double share = 1 - (distances[i] - nearest) / parts_[i].bones[0].blend;
+    const double share = 1 - (distances[i] - nearest) / parts_[i].blend;
     if (share > 0) shares.emplace_back(share * share, static_cast<int>(i));
   }
   std::sort(shares.rbegin(), shares.rend());

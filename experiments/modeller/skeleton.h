@@ -13,15 +13,15 @@ struct Bone {
   Eigen::Vector3d from;
   Eigen::Vector3d to;
   double radius;
-  double blend;  ///< mm: how much farther than the nearest joint it may be and still carry a little
 };
 
 /// Joints in the order in which they are added, all at rest in the figure's frame.
 class Skeleton {
  public:
   /// A joint at `bone.from`, its y axis along the bone, its x axis as near to `x_axis` as can be: a bone that
-  /// bends like a finger turns about x. No parent: "".
-  Skeleton& add(const std::string& joint, const std::string& parent, const Bone& bone,
+  /// bends like a finger turns about x. No parent: "". `blend`: how many mm farther from a vertex than the
+  /// nearest joint's bones this one's may be and still carry a little of it.
+  Skeleton& add(const std::string& joint, const std::string& parent, const Bone& bone, double blend,
                 const Eigen::Vector3d& x_axis = Eigen::Vector3d::UnitX());
   /// One more bone of the joint that was added last.
   Skeleton& also(const Bone& bone);
@@ -35,6 +35,7 @@ class Skeleton {
   struct Part {
     Joint joint;
     std::vector<Bone> bones;
+    double blend;
   };
   JointWeights weights_at(const Eigen::Vector3d& point) const;
 

@@ -16,8 +16,8 @@ Mesh hinged_stick() {
   Mesh mesh;
   for (int y = 0; y <= 100; ++y) mesh.vertices.emplace_back(5, y, 0);
   Skeleton skeleton;
-  skeleton.add("lower", "", {{0, 0, 0}, {0, 50, 0}, 5, 10})
-      .add("upper", "lower", {{0, 50, 0}, {0, 100, 0}, 5, 10});
+  skeleton.add("lower", "", {{0, 0, 0}, {0, 50, 0}, 5}, 10)
+      .add("upper", "lower", {{0, 50, 0}, {0, 100, 0}, 5}, 10);
   skeleton.bind(mesh);
   return mesh;
 }
@@ -58,7 +58,7 @@ TEST(Skeleton, TurnsAreAboutXThenYThenZ) {
 
 TEST(Skeleton, AParentMustHaveBeenAdded) {
   Skeleton skeleton;
-  EXPECT_THROW(skeleton.add("hand", "arm", {{0, 0, 0}, {0, 1, 0}, 1, 1}), std::logic_error);
+  EXPECT_THROW(skeleton.add("hand", "arm", {{0, 0, 0}, {0, 1, 0}, 1}, 1), std::logic_error);
 }
 
 }  // namespace
