@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,6 +18,9 @@ class DataStream : public FrameStream {
   /// What is known of the pair of the first frame and frame `number` (the first is 1), whether they were read
   /// or not; nothing where nothing is known.
   virtual std::optional<PairTruth> truth(int number) const = 0;
+  /// Where the depth camera is in frame `number`: from its frame, mm, to one that stays; nothing where that
+  /// is not known.
+  virtual std::optional<Eigen::Isometry3d> camera_pose(int /*number*/) const { return std::nullopt; }
 };
 
 /// Where an experiment's frames come from.

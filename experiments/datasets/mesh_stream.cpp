@@ -85,7 +85,7 @@ DepthImage MeshStream::exact_depth(int number) const {
   return depth_image(see(number).view.depth, scene_->rig.depth);
 }
 
-Eigen::Isometry3d MeshStream::scene_from_camera(int number) const {
+std::optional<Eigen::Isometry3d> MeshStream::camera_pose(int number) const {
   return scene_->state_at(scene_->time_of(number)).camera.camera_from_scene().inverse();
 }
 

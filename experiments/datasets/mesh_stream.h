@@ -26,12 +26,11 @@ class MeshStream : public DataStream {
   std::optional<Frame> next() override;
   std::vector<std::string> warnings() const override { return scene_->warnings; }
   std::optional<PairTruth> truth(int number) const override;
+  std::optional<Eigen::Isometry3d> camera_pose(int number) const override;
 
   const MeshScene& scene() const { return *scene_; }
   /// The exact depth of a frame, which no sensor has seen.
   DepthImage exact_depth(int number) const;
-  /// From the frame of the depth camera of frame `number` to that of a camera that has not moved.
-  Eigen::Isometry3d scene_from_camera(int number) const;
 
  private:
   struct Seen {

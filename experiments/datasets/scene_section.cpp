@@ -50,12 +50,13 @@ Rig read_rig(const Parameters& section) {
   return rig;
 }
 
-/// At which the box fills four fifths of the image.
+/// At which the middle of a box fills four fifths of the image, but no nearer than depth cameras see.
 double fitting_distance(const Eigen::Vector3d& size, const Camera& camera) {
   constexpr double filled = 0.8;
+  constexpr double nearest = 400;  // mm, of the first Kinect in its near mode
   const double wide = size.x() * camera.fx / (filled * camera.width);
   const double high = size.y() * camera.fy / (filled * camera.height);
-  return std::max(wide, high) + size.z() / 2;
+  return std::max({wide, high, nearest + size.z() / 2});
 }
 
 std::string described(const std::vector<std::string>& words) {
@@ -143,8 +144,8 @@ ParameterTable scene_table(std::vector<Parameter> rows) {
                      .unit("mm")
                      .above(0)
                      .optional()
-                     .doc("from the camera to the middle of the mesh; by default the mesh fills four fifths "
-                          "of the image"));
+                     .doc("from the camera to the middle of the mesh; by default it fills four fifths of the "
+                          "image, at 400 mm or more"));
   rows.push_back(
       choice("texture", {"rich", "skin"}, "rich").doc("colour: features everywhere, or hardly any"));
   rows.push_back(integer("texture_seed", 1).at_least(0).doc("of the colour"));

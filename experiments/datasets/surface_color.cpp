@@ -14,8 +14,8 @@ namespace pliant {
 namespace {
 
 // The noise above which there is a freckle, and from there the noise at which it is darkest.
-constexpr float freckle_begin = 0.4F;
-constexpr float freckle_edge = 0.4F;
+constexpr float freckle_begin = 0.55F;
+constexpr float freckle_edge = 0.35F;
 
 using Cell = std::array<std::uint32_t, 3>;
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/program/commands.h"
+#include "experiments/program/make_data.h"
 #include "experiments/program/output.h"
 #include "experiments/program/reproduce.h"
 #include "experiments/runner/version.h"
@@ -28,6 +29,7 @@ First steps:
   pliant reproduce chapter5           the experiments of chapter 5 of the thesis
   pliant run experiments/sheet.yaml   one experiment; results in out/sheet
   pliant components                   what experiment files can name
+  pliant data make hand               frames with exact truth as files, in out/hand
 
 From the source tree the launcher ./pliant builds what has changed first, and has two commands more:
   ./pliant test [CTEST OPTION...]     builds and runs the tests
@@ -82,6 +84,15 @@ Example:
   pliant devices    then choose one by a part of its name: pliant run my.yaml --set device=pthread
 )";
 
+constexpr const char* make_data_examples = R"(
+Examples:
+  pliant data make head --set 'data.target=[smile=1]' --set data.frames=30 --out out/smile
+  pliant data make my.yaml --layout tum --out out/my_sequence
+
+Writes depth (16-bit PNG), colour (PNG), the camera and, where the source knows it, the true motion from the
+first frame to each other one: scene flow, optical flow and what is visible.
+)";
+
 constexpr const char* reproduce_examples = R"(
 Example:
   pliant reproduce --quick --out out/quick --data ~/data
@@ -99,10 +110,12 @@ struct Arguments {
   std::string name;
   bool json = false;
   ReproduceOptions reproduce;
+  std::string layout = "deepdeform";
 };
 
-void add_set_and_data(CLI::App& command, ExperimentOptions& options) {
-  command.add_option("FILE.yaml", options.file, "The experiment")->required();
+void add_set_and_data(CLI::App& command, ExperimentOptions& options, const std::string& label = "FILE.yaml",
+                      const std::string& what = "The experiment") {
+  command.add_option(label, options.file, what)->required();
   command.add_option("--set", options.sets, "Lays one value over the file, e.g. data.noise=1; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -168,6 +181,19 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   devices->callback([] { devices_command(); });
 }
 
+void add_data_commands(CLI::App& app, Arguments& arguments) {
+  auto* data = app.add_subcommand("data", "Makes data: see pliant data make --help");
+  data->require_subcommand(1);
+  auto* make = add_command(*data, "make", "Writes the frames of a data source, and their truth, as files",
+                           make_data_examples);
+  add_set_and_data(*make, arguments.experiment, "NAME|FILE.yaml",
+                   "A data source, or an experiment whose data is taken");
+  add_out(*make, arguments.experiment, "out/<name>");
+  make->add_option("--layout", arguments.layout, "deepdeform (the default) or tum")
+      ->check(CLI::IsMember({"deepdeform", "tum"}));
+  make->callback([&] { make_data_command(arguments.experiment, arguments.layout); });
+}
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -214,6 +240,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   Arguments arguments;
   add_commands(app, arguments);
+  add_data_commands(app, arguments);
   try {
     const int exit_code = parse(app, argc, argv);
     check_output();

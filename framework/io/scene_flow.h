@@ -16,4 +16,8 @@ Image<Eigen::Vector3f> read_scene_flow(const std::string& path);
 /// Writes motion in mm (NaN where nothing is known) as read_scene_flow reads it.
 void write_scene_flow(const std::string& path, const Image<Eigen::Vector3f>& flow);
 
+/// The same for motion in the image, in pixels, from and to `.oflow` files: channels = 2.
+Image<Eigen::Vector2f> read_optical_flow(const std::string& path);
+void write_optical_flow(const std::string& path, const Image<Eigen::Vector2f>& flow);
+
 }  // namespace pliant

@@ -93,8 +93,9 @@ TEST_F(MeshSources, SeeWhatTheHostRenders) {
 }
 
 TEST_F(MeshSources, FillFourFifthsOfTheImageByDefault) {
-  const auto frames = frames_of("");
+  const auto frames = frames_of(", mesh_scale: 3000");
   EXPECT_NEAR(std::sqrt(count_points(frames[0].depth)), 0.8 * 120, 1.5);
+  EXPECT_EQ(frames_of("")[0].depth(80, 60), 400) << "no nearer than depth cameras see";
 }
 
 TEST_F(MeshSources, ColoursMoveWithTheMaterial) {

@@ -94,5 +94,19 @@ TEST_F(SceneFlow, MissingAndUnwritableAreErrors) {
               HasSubstr("no/a.sflow"));
 }
 
+TEST_F(SceneFlow, OpticalFlowIsInPixels) {
+  const auto path = write("truth.oflow", flow_file(2, 1, 2, {0.5f, -kInfinity, 3, 1}));
+  const auto flow = read_optical_flow(path);
+  EXPECT_EQ(flow(0, 0), Eigen::Vector2f(0.5, 3));
+  EXPECT_TRUE(flow(1, 0).array().isNaN().all());
+  write_optical_flow(file("again.oflow"), flow);
+  EXPECT_EQ(read_optical_flow(file("again.oflow"))(0, 0), flow(0, 0));
+  EXPECT_THAT(data_error_of([&] { read_scene_flow(path); }),
+              HasSubstr("2 channels, expected 3 of scene flow"));
+  write("flow.sflow", flow_file(1, 1, 3, {1, 2, 3}));
+  EXPECT_THAT(data_error_of([&] { read_optical_flow(file("flow.sflow")); }),
+              HasSubstr("3 channels, expected 2 of optical flow"));
+}
+
 }  // namespace
 }  // namespace pliant
