@@ -287,13 +287,15 @@ class Drawing {
   std::vector<std::pair<double, double>> places_in_legend_;
 };
 
-std::string element(const Chart& chart, const std::string& attributes, const std::string& first) {
+/// `attributes`: of the element; they are asked for once its height is known.
+template <class Attributes>
+std::string element(const Chart& chart, Attributes attributes, const std::string& first) {
   const Drawing drawing(chart);
   return fmt::format(
              "<svg class=\"chart\"{} viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\" "
              "font-family=\"system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif\" "
              "font-size=\"12.5\">\n",
-             attributes, width, drawing.height(), html_escape(chart.title)) +
+             attributes(drawing.height()), width, drawing.height(), html_escape(chart.title)) +
          first + drawing.svg() + "</svg>\n";
 }
 
@@ -308,12 +310,17 @@ bool is_empty(const Chart& chart) {
 }  // namespace
 
 std::string chart_svg(const Chart& chart) {
-  return is_empty(chart) ? "<p class=\"quiet\">No value to draw.</p>\n" : element(chart, "", "");
+  if (is_empty(chart)) return "<p class=\"quiet\">No value to draw.</p>\n";
+  return element(
+      chart, [](double) { return ""; }, "");
 }
 
 std::string chart_svg_file(const Chart& chart) {
   const std::string style(embedded::experiments_report_web_chart_css);
-  return element(chart, " xmlns=\"http://www.w3.org/2000/svg\"",
+  const auto attributes = [](double height) {
+    return fmt::format(" xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{:.0f}\"", width, height);
+  };
+  return element(chart, attributes,
                  "<style>" + style +
                      "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\" "
                      "fill=\"#ffffff\"/>\n");

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "experiments/report/heat_map.h"
+
 namespace pliant {
 namespace {
 
@@ -53,6 +55,7 @@ ViewData sample_view(int side, int steps) {
   for (int number = 0; number < steps; ++number) view.steps.push_back(step_of(view, number, steps - 1));
   view.result = view.steps.size() - 1;
   view.scale = 8;
+  view.picture = draw_heat_map(Image<float>(40, 30, 1), {}, "A picture", "that stands in");
   return view;
 }
 

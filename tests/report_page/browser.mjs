@@ -10,12 +10,15 @@ const { chromium } = createRequire(`${process.cwd()}/`)("playwright-core");
 export const screens = { phone: 390, laptop: 1280, desktop: 1920 };
 const pictures = `${process.cwd()}/screenshots`;
 
-export async function openBrowser() {
+const sandbox = process.getuid() === 0 ? ["--no-sandbox"] : [];  // Chromium refuses to have one as root
+const softwareWebGL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+export async function openBrowser(webGL = softwareWebGL) {
   mkdirSync(pictures, { recursive: true });
   return chromium.launch({
     executablePath: process.env.PLIANT_CHROMIUM,
     ignoreDefaultArgs: ["--hide-scrollbars"],
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: [...sandbox, ...webGL],
   });
 }
 
@@ -28,7 +31,7 @@ export async function openPage(browser, file, { width = screens.laptop, colors =
   const page = await context.newPage();
   page.complaints = [];
   page.on("console", (message) => {
-    if (["error", "warning"].includes(message.type())) page.complaints.push(message.text());
+    if (message.type() === "error") page.complaints.push(message.text());
   });
   page.on("pageerror", (error) => page.complaints.push(String(error)));
   const url = pathToFileURL(file).href;
@@ -40,16 +43,13 @@ export async function openPage(browser, file, { width = screens.laptop, colors =
   return page;
 }
 
-/** Scrolls through the page, so that everything that waits to be seen is made. */
+/** Scrolls to everything that waits to be seen, so that it is made. */
 export async function seeAll(page) {
-  const height = await page.evaluate(() => document.documentElement.scrollHeight);
-  for (let y = 0; y < height; y += 700) {
-    await page.evaluate((top) => scrollTo({ top, behavior: "instant" }), y);
-    await page.waitForTimeout(60);
+  for (const figure of await page.$$(".chart-figure:has(svg), .view-figure")) {
+    await figure.evaluate((element) => element.scrollIntoView({ behavior: "instant" }));
+    await figure.waitForSelector(".live canvas", { state: "attached" });
   }
   await page.evaluate(() => scrollTo({ top: 0, behavior: "instant" }));
-  await page.waitForFunction(() => document.querySelectorAll(".chart-figure svg").length ===
-    document.querySelectorAll(".chart-live canvas").length);
 }
 
 export async function keepPicture(page, name) {
@@ -84,6 +84,50 @@ export async function colorsOf(canvas) {
     const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
     return new Set(new Uint32Array(data.buffer)).size;
   });
+}
+
+/** A number that stands for what a canvas shows. */
+export async function pixelsOf(canvas) {
+  return canvas.evaluate((element) => {
+    const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
+    return new Uint32Array(data.buffer).reduce((hash, color) => Math.imul(hash ^ color, 16777619), 2166136261);
+  });
+}
+
+/** Asks every tenth of a second, five seconds long, until it holds. */
+export async function eventually(holds, complaint) {
+  for (let i = 0; i < 50; ++i) {
+    if (await holds()) return;
+    await new Promise((then) => setTimeout(then, 100));
+  }
+  assert.fail(complaint);
+}
+
+/** Does something that must change what a canvas shows. */
+export async function changes(canvas, act, what) {
+  const before = await pixelsOf(canvas);
+  await act();
+  await eventually(async () => await pixelsOf(canvas) !== before, `nothing changed: ${what}`);
+}
+
+/** Asks of a page what is asked of every page, on every screen and in both colours: nothing is cut off. */
+export async function checkLayout(page, name) {
+  await seeAll(page);
+  for (const [screen, width] of Object.entries(screens))
+    for (const colors of ["light", "dark"]) {
+      await page.setViewportSize({ width, height: 900 });
+      await page.emulateMedia({ colorScheme: colors });
+      if (colors === "light" || screen === "laptop") await keepPicture(page, `${name}-${screen}-${colors}`);
+      await setFolds(page, true);
+      assert.deepEqual(await cutOff(page), [], `${screen}, ${colors}`);
+      await setFolds(page, false);
+    }
+  await page.setViewportSize({ width: screens.laptop, height: 900 });
+  await page.emulateMedia({ colorScheme: "light" });
+}
+
+async function setFolds(page, open) {
+  await page.evaluate((value) => document.querySelectorAll("details").forEach((fold) => { fold.open = value; }), open);
 }
 
 export function assertQuiet(page) {

@@ -61,7 +61,7 @@
       setTimeout(() => {
         button.textContent = name;
         button.classList.remove("done");
-      }, 1200);
+      }, 900);
     });
     return button;
   };
