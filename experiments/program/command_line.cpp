@@ -13,6 +13,7 @@
 #include "experiments/program/make_data.h"
 #include "experiments/program/output.h"
 #include "experiments/program/reproduce.h"
+#include "experiments/program/view.h"
 #include "experiments/runner/version.h"
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
@@ -28,6 +29,7 @@ First steps:
   pliant reproduce --quick            everything that can be reproduced, in short
   pliant reproduce chapter5           the experiments of chapter 5 of the thesis
   pliant run experiments/sheet.yaml   one experiment; results in out/sheet
+  pliant view out/sheet --open        its page, with the run in three dimensions
   pliant components                   what experiment files can name
   pliant data make hand               frames with exact truth as files, in out/hand
 
@@ -79,6 +81,11 @@ Examples:
   pliant components --json > schema.json     a JSON Schema with which editors complete experiment files
 )";
 
+constexpr const char* view_examples = R"(
+Example:
+  pliant view out/sheet --open    without --open it only says where the page is
+)";
+
 constexpr const char* devices_examples = R"(
 Example:
   pliant devices    then choose one by a part of its name: pliant run my.yaml --set device=pthread
@@ -111,6 +118,8 @@ struct Arguments {
   bool json = false;
   ReproduceOptions reproduce;
   std::string layout = "deepdeform";
+  std::string result;
+  bool open = false;
 };
 
 void add_set_and_data(CLI::App& command, ExperimentOptions& options, const std::string& label = "FILE.yaml",
@@ -176,6 +185,12 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   components->add_option("NAME", arguments.name, "Only this component, with its parameters");
   components->add_flag("--json", arguments.json, "A JSON Schema of experiment files, for editors");
   components->callback([&] { components_command(arguments.kind, arguments.name, arguments.json); });
+
+  auto* view = add_command(app, "view", "The page of a result, made if it has none", view_examples);
+  view->add_option("RESULT_DIR", arguments.result, "The folder of a result, or of one of its runs")
+      ->required();
+  view->add_flag("--open", arguments.open, "Opens it in the browser");
+  view->callback([&] { view_command(arguments.result, arguments.open); });
 
   auto* devices = add_command(app, "devices", "The OpenCL devices of this machine", devices_examples);
   devices->callback([] { devices_command(); });

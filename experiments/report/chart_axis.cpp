@@ -18,8 +18,9 @@ double round_step(double least) {
   return 10 * decade;
 }
 
-std::vector<double> linear_ticks(double low, double high) {
-  const double step = round_step((high - low) / 7);
+/// Where all values are whole, none is marked between them.
+std::vector<double> linear_ticks(double low, double high, bool whole) {
+  const double step = std::max(round_step((high - low) / 7), whole ? 1.0 : 0.0);
   std::vector<double> ticks;
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
     ticks.push_back(k * step + 0.0);  // no "-0"
@@ -46,14 +47,14 @@ std::vector<double> log_ticks(double low, double high) {
   return ticks;
 }
 
-ChartAxis linear_axis(double least, double most, bool from_zero) {
+ChartAxis linear_axis(double least, double most, bool from_zero, bool whole) {
   const double margin = most > least ? air * (most - least) : std::max(std::abs(most) * air, 0.5);
   ChartAxis axis{false, least - margin, most + margin, {}};
   // An axis that ends a little below zero would suggest that values may be negative.
   if (least >= 0 && (from_zero || axis.low < 0 || least < 0.35 * most)) axis.low = 0;
   if (most <= 0 && (from_zero || axis.high > 0)) axis.high = 0;
   if (axis.low == axis.high) axis.high = axis.low + 1;
-  axis.ticks = linear_ticks(axis.low, axis.high);
+  axis.ticks = linear_ticks(axis.low, axis.high, whole);
   return axis;
 }
 
@@ -79,9 +80,11 @@ ChartAxis axis_around(const std::vector<double>& values, bool is_log, bool from_
                [&](double value) { return axis.takes(value); });
   if (taken.empty()) return axis;
   const auto [least, most] = std::minmax_element(taken.begin(), taken.end());
-  return is_log ? log_axis(*least, *most) : linear_axis(*least, *most, from_zero);
+  const bool whole =
+      std::all_of(taken.begin(), taken.end(), [](double value) { return value == std::round(value); });
+  return is_log ? log_axis(*least, *most) : linear_axis(*least, *most, from_zero, whole);
 }
 
-std::string tick_label(double value) { return fmt::format("{:.5g}", value); }
+std::string tick_label(double value) { return fmt::format("{:.7g}", value); }
 
 }  // namespace pliant

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "experiments/report/chart_svg.h"
 #include "experiments/report/chart_values.h"
@@ -28,6 +29,20 @@ std::string caption(const Chart& chart) {
 }
 
 }  // namespace
+
+Chart chart_of(const Series& series) {
+  Chart::Series values{series.value, {}};
+  for (std::size_t i = 0; i < series.values.size(); ++i)
+    values.points.push_back({static_cast<double>(i), "", series.values[i]});
+  Chart chart;
+  chart.title = series.title;
+  chart.text = series.note;
+  chart.x_label = series.step;
+  chart.y_label = series.value + " (log scale)";
+  chart.log_y = true;
+  chart.series.push_back(std::move(values));
+  return chart;
+}
 
 std::string chart_html(const Chart& chart) {
   const std::string id = chart.name.empty() ? "" : fmt::format(" id=\"{}\"", html_id(chart.name));

@@ -23,23 +23,9 @@ std::string tables_html(const std::vector<Table>& tables, bool with_header) {
   return html;
 }
 
-std::string series_html(const Series& series) {
-  Chart::Series values{series.value, {}};
-  for (std::size_t i = 0; i < series.values.size(); ++i)
-    values.points.push_back({static_cast<double>(i), "", series.values[i]});
-  Chart chart;
-  chart.title = series.title;
-  chart.text = series.note;
-  chart.x_label = series.step;
-  chart.y_label = series.value + " (log scale)";
-  chart.log_y = true;
-  chart.series.push_back(std::move(values));
-  return chart_html(chart);
-}
-
 std::string series_html(const std::vector<Series>& all) {
   std::string html;
-  for (const Series& series : all) html += series_html(series);
+  for (const Series& series : all) html += chart_html(chart_of(series));
   return html;
 }
 

@@ -4,6 +4,7 @@
 
 #include "experiments/report/chart_html.h"
 #include "experiments/report/findings_html.h"
+#include "experiments/report/json_table.h"
 #include "experiments/report/view_html.h"
 
 namespace pliant {
@@ -15,26 +16,9 @@ std::string fold(const std::string& title, const std::string& body) {
   return "<details class=\"card\"><summary>" + title + "</summary>\n" + body + "</details>\n";
 }
 
-std::string value_of(const ordered_json& json) {
-  return json.is_string() ? json.get<std::string>()
-                          : json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-/// A row a value, with the names that lead there.
-void add_facts(const ordered_json& json, const std::string& name, Table& table) {
-  if (!json.is_object()) {
-    table.rows.push_back({{name, value_of(json)}});
-    return;
-  }
-  for (const auto& [key, value] : json.items())
-    add_facts(value, name.empty() ? key : name + " " + key, table);
-}
-
 std::string environment_html(const ordered_json& environment) {
   if (environment.empty()) return "";
-  Table table{"", {}, {}};
-  add_facts(environment, "", table);
-  return fold("Versions, device and seed", bare_html(table));
+  return fold("Versions, device and seed", bare_html(facts_table("", environment)));
 }
 
 std::string experiment_html(const std::string& experiment) {

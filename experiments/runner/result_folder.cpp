@@ -285,6 +285,16 @@ void ResultFolder::keep() {
   is_kept_ = true;
 }
 
+/// What is listed and not there does no harm; what is there and not listed would be in the next result's way.
+void ResultFolder::add(const fs::path& folder, const fs::path& name, const std::string& text) {
+  const std::string list = (folder / list_name).string();
+  auto bytes = read_file(list);
+  const std::string line = name.string() + "\n";
+  bytes.insert(bytes.end(), line.begin(), line.end());
+  write_file(list, bytes);
+  write_file((folder / name).string(), {text.begin(), text.end()});
+}
+
 Files ResultFolder::abandon_all() {
   guard().lock();  // for ever
   Files kept;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace pliant {
@@ -39,6 +40,11 @@ class ResultFolder {
 
   /// Puts the new result in the place of the old one.
   void commit();
+
+  /// Makes one more file of the result in `folder`, which the next result replaces like its others. `name`:
+  /// relative to the folder. Throws DataError when it cannot be written.
+  static void add(const std::filesystem::path& folder, const std::filesystem::path& name,
+                  const std::string& text);
 
   /// For a process that is about to be ended from another thread: waits for a commit() that is under way,
   /// removes what other folders have begun, and lets no thread begin or commit any more. Gives the places of

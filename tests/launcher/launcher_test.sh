@@ -34,6 +34,8 @@ if [ "$1" = --preset ]; then
   echo "$text" >"$cache"
   [ -z "${FAILING_CONFIGURE:-}" ] || { echo "a package is missing"; exit 1; }
   printf '%s\n' "$PWD" "$4" >"$4/build.ninja"
+  rm -rf "$4/web"
+  [ -z "${WITHOUT_NPM:-}" ] || { mkdir "$4/web"; echo "no npm" >"$4/web/missing"; }
 else
   [ "$1" = --build ]
   { read -r home; read -r folder; } <"$2/build.ninja"
@@ -120,6 +122,20 @@ a_failed_configuration_is_tried_again() {
   expect_in "a package is missing" "$err"
   run "$box/copy/pliant" run
   expect "$code $out" "0 $box/copy: run"
+}
+
+npm_is_asked_for_again_after_an_hour() {
+  make_checkout original
+  run env WITHOUT_NPM=1 "$checkout/pliant" run
+  expect "$code $out" "0 $checkout: run"
+  expect_in "will be pictures: no npm" "$err"
+  run "$checkout/pliant" run
+  expect "$err" ""
+  expect "$(grep -c -- --preset "$CALLS")" 1
+  touch -d '-2 hours' "$checkout/build/release/web/missing"
+  run "$checkout/pliant" run
+  expect "$(grep -c -- --preset "$CALLS")" 2
+  [ ! -e "$checkout/build/release/web/missing" ] || fail "not tried again"
 }
 
 another_folder_can_be_built_in() {

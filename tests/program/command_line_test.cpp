@@ -29,7 +29,7 @@ class CommandLineTest : public ProgramTest {
 TEST_F(CommandLineTest, HelpTeachesEveryCommand) {
   const ProgramRun help = call("--help");
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* command : {"reproduce", "run", "check", "compare", "components", "devices"}) {
+  for (const char* command : {"reproduce", "run", "check", "compare", "view", "components", "devices"}) {
     EXPECT_THAT(help.out, HasSubstr(command));
     const ProgramRun own = call(std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0);

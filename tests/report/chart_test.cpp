@@ -54,6 +54,16 @@ TEST(ChartAxis, MarksRoundValues) {
   EXPECT_THAT(axis_around({3, 2000}, true).ticks, ElementsAre(10, 100, 1000));
 }
 
+TEST(ChartAxis, MarksNothingBetweenWholeValuesThatAreAllWhole) {
+  EXPECT_THAT(axis_around({0, 1, 2}, false).ticks, ElementsAre(0, 1, 2));
+  EXPECT_GT(axis_around({0, 1, 2.5}, false).ticks.size(), 4U);
+}
+
+TEST(ChartAxis, LabelsAreAsShortAsTheyCanBe) {
+  EXPECT_EQ(tick_label(0.1 + 0.2), "0.3");
+  EXPECT_EQ(tick_label(500000), "500000");
+}
+
 TEST(ChartAxis, HoldsItsValuesAndLetsBarsStandOnZero) {
   for (const bool is_log : {false, true}) {
     const ChartAxis axis = axis_around({101, 102}, is_log);

@@ -46,7 +46,7 @@ function numberAxis(axis) {
 function wordAxis(axis, labels, width) {
   const tilts = longest(labels) > (width - 90) / labels.length - 6;
   return { ...axisStyle(), label: axis.label, splits: () => labels.map((_, index) => index),
-    values: () => labels, rotate: tilts ? -30 : 0, grid: { show: false },
+    values: () => labels, rotate: tilts ? 30 : 0, grid: { show: false },
     size: tilts ? Math.min(longest(labels) * 0.5, 90) + 24 : 28, labelSize: 22 };
 }
 
