@@ -21,6 +21,19 @@ using testing::posed;
 using testing::shape_of;
 using testing::vertex_near;
 
+TEST(CountIntersections, FindsTrianglesThatPassThroughEachOther) {
+  Mesh mesh;
+  mesh.vertices = {{-2, -2, 0}, {2, -2, 0}, {0, 3, 0}, {0, 0, -1}, {0, 0, 1}, {3, 0, 1}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  EXPECT_EQ(count_intersections(mesh), 1U);
+  for (int k : {3, 4, 5}) mesh.vertices[static_cast<std::size_t>(k)].z() += 2;
+  EXPECT_EQ(count_intersections(mesh), 0U);
+  // A triangle that is folded back through its neighbour across a shared corner.
+  mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 1, -1}, {1, 1, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
+  EXPECT_EQ(count_intersections(mesh), 1U);
+}
+
 class EachFigure : public ::testing::TestWithParam<std::string> {};
 
 INSTANTIATE_TEST_SUITE_P(Figures, EachFigure, ::testing::Values("sheet", "hand", "head", "bag", "body"),

@@ -39,17 +39,17 @@ class IntersectionTest {
 
   /// The triangles whose boxes reach into each cell of a grid.
   std::map<Cell, std::vector<std::size_t>> cells() const {
-    double longest = 0;
+    double length = 0;  // of the mean triangle
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       Eigen::AlignedBox3d box;
       for (int k = 0; k < 3; ++k) box.extend(corner(t, k));
-      longest = std::max(longest, box.sizes().maxCoeff());
+      length += box.sizes().maxCoeff() / static_cast<double>(mesh_.triangles.size());
       boxes_.push_back(box);
     }
     std::map<Cell, std::vector<std::size_t>> cells;
     for (std::size_t t = 0; t < boxes_.size(); ++t) {
-      const Eigen::Vector3i low = (boxes_[t].min() / longest).array().floor().cast<int>();
-      const Eigen::Vector3i high = (boxes_[t].max() / longest).array().floor().cast<int>();
+      const Eigen::Vector3i low = (boxes_[t].min() / length).array().floor().cast<int>();
+      const Eigen::Vector3i high = (boxes_[t].max() / length).array().floor().cast<int>();
       for (int k = low.z(); k <= high.z(); ++k) {
         for (int j = low.y(); j <= high.y(); ++j) {
           for (int i = low.x(); i <= high.x(); ++i) cells[{i, j, k}].push_back(t);
