@@ -48,11 +48,14 @@ class AutomaticAlignment : public Alignment {
     const RigidIcpResult found = run_icp(input, options, result.motion);
     result.reason += "; " + described(found);
     // Where features have moved it already, that was not for a deformation: any gain makes it more precise.
-    const bool is_better = result.method == "features" ? is_nearer(found) : is_clearly_nearer(found);
-    if (!is_better) {
+    if (result.method == "features" ? !is_nearer(found) : !is_clearly_nearer(found)) {
       result.failed = result.method == "none" && is_far(found.before);
       if (!found.failed)
         result.reason += result.method == "features" ? ": not nearer" : ": not clearly nearer";
+      return result;
+    }
+    if (!keeps_features(result, found.pose)) {
+      result.reason += ": away from the features";
       return result;
     }
     move(result, found.pose);
@@ -61,6 +64,13 @@ class AutomaticAlignment : public Alignment {
   }
 
  private:
+  /// Whether most features that suited where they put the source still do: where a surface may slide along
+  /// itself and out of view, a low residual alone is no reason to.
+  bool keeps_features(const AlignmentResult& result, const Eigen::Isometry3d& motion) const {
+    const std::size_t kept = keep_deformable(result.features, motion, features_.max_deformation).size();
+    return 2 * kept >= result.features.size();
+  }
+
   /// Puts the source elsewhere; features that do not suit that are dropped.
   void move(AlignmentResult& result, const Eigen::Isometry3d& motion) const {
     result.motion = motion;

@@ -278,5 +278,17 @@ TEST_F(RunnerTest, AComponentCombinationWithoutSenseIsAConfigError) {
                ConfigError);
 }
 
+// ICP may slide a plane along itself, and what slides out of view counts for nothing.
+TEST_F(RunnerTest, IcpDoesNotSlideASheetAwayFromItsFeatures) {
+  write("creased.yaml",
+        "extends: methods/best.yaml\nreports: {}\nseed: 2\nstopping: {max_iterations: 1}\n"
+        "data: {type: sheet, target: [crease=1], distance: 700, "
+        "sensor: {axial: 1, quantisation: 1, lateral: 1, grazing: 80, shadow: 75}}\n");
+  const auto result =
+      run(plan_experiment({file("creased.yaml"), {}, {}, {PLIANT_EXPERIMENTS}}, registry_), "out");
+  EXPECT_LT(result["runs"][0]["aligned"]["epe_mean"], 30);
+  EXPECT_GT(result["runs"][0]["alignment"]["inliers"], 100);
+}
+
 }  // namespace
 }  // namespace pliant::testing
