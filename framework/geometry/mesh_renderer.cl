@@ -6,7 +6,7 @@
 
 #define SUBPIXELS 4096
 #define SUBPIXEL_BITS 12
-#define WIDEST 262144.0f     // pixels from the image's corner: products of differences then fit into a long
+#define WIDEST 131072.0f     // pixels from the image's corner: differences of products then fit into a long
 #define OUTSIDE INT_MIN      // of what has no place in the image
 #define NOTHING 0x7f800000u  // the depth, infinity, where no triangle is seen
 
@@ -60,29 +60,27 @@ kernel void place(global const float* points, int count, float4 camera, float ne
 }
 
 // In the first pass the nearest depth of each pixel is found, in the second the first triangle that has it.
-// Both are passes of one kernel, so that they round alike.
-void show(int triangle, float depth, int pixel, int pass, global volatile uint* nearest,
+// Both are passes of one kernel, so that they round alike. Tells in the first whether the depth may be that.
+bool show(int triangle, float depth, int pixel, int pass, global volatile uint* nearest,
           global volatile uint* seen) {
-  const uint bits = as_uint(depth);
-  if (pass == 0) {
-    if (bits < nearest[pixel]) atomic_min(nearest + pixel, bits);
-  } else if (bits == nearest[pixel]) {
-    atomic_min(seen + pixel, (uint)triangle);
-  }
+  const uint bits = as_uint(depth), known = nearest[pixel];
+  if (pass == 0 && bits < known) atomic_min(nearest + pixel, bits);
+  if (pass == 1 && bits == known) atomic_min(seen + pixel, (uint)triangle);
+  return bits <= known;
 }
 
 // Twice the area of (p, q, r), positive when they run clockwise in the image.
 long area(long2 p, long2 q, long2 r) { return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x); }
 
-void draw_placed(int index, Triangle t, long2 a, long2 b, long2 c, float4 camera, int2 size, int pass,
+bool draw_placed(int index, Triangle t, long2 a, long2 b, long2 c, float4 camera, int2 size, int pass,
                  global volatile uint* nearest, global volatile uint* seen) {
   const int first_u = max((int)((min(min(a.x, b.x), c.x) + SUBPIXELS - 1) >> SUBPIXEL_BITS), 0);
   const int first_v = max((int)((min(min(a.y, b.y), c.y) + SUBPIXELS - 1) >> SUBPIXEL_BITS), 0);
   const int last_u = min((int)(max(max(a.x, b.x), c.x) >> SUBPIXEL_BITS), size.x - 1);
   const int last_v = min((int)(max(max(a.y, b.y), c.y) >> SUBPIXEL_BITS), size.y - 1);
-  if (first_u > last_u || first_v > last_v) return;
+  if (first_u > last_u || first_v > last_v) return false;
   const long whole = area(a, b, c);
-  if (whole == 0) return;  // seen from its edge: its neighbours are seen instead
+  if (whole == 0) return false;  // seen from its edge: its neighbours are seen instead
   if (whole < 0) {
     const long2 other = b;
     b = c;
@@ -91,6 +89,7 @@ void draw_placed(int index, Triangle t, long2 a, long2 b, long2 c, float4 camera
   const long2 corner = {(long)first_u * SUBPIXELS, (long)first_v * SUBPIXELS};
   long row_ab = area(a, b, corner), row_bc = area(b, c, corner), row_ca = area(c, a, corner);
   const long2 ab = (b - a) * SUBPIXELS, bc = (c - b) * SUBPIXELS, ca = (a - c) * SUBPIXELS;
+  bool is_shown = false;
   const Plane plane = plane_of(t);
   const float slope_u = plane.normal.x / camera.x, slope_v = plane.normal.y / camera.y;
   for (int v = first_v; v <= last_v; ++v) {
@@ -98,7 +97,8 @@ void draw_placed(int index, Triangle t, long2 a, long2 b, long2 c, float4 camera
     const float facing = slope_v * (v - camera.w) + plane.normal.z;
     for (int u = first_u; u <= last_u; ++u) {
       if ((on_ab | on_bc | on_ca) >= 0)
-        show(index, depth_on(plane, slope_u * (u - camera.z) + facing), v * size.x + u, pass, nearest, seen);
+        is_shown |= show(index, depth_on(plane, slope_u * (u - camera.z) + facing), v * size.x + u, pass,
+                         nearest, seen);
       on_ab -= ab.y;
       on_bc -= bc.y;
       on_ca -= ca.y;
@@ -107,10 +107,11 @@ void draw_placed(int index, Triangle t, long2 a, long2 b, long2 c, float4 camera
     row_bc += bc.x;
     row_ca += ca.x;
   }
+  return is_shown;
 }
 
 // A triangle that is not placed in the image as a whole: see draw() of render.cpp.
-void draw_across(int index, Triangle t, float4 camera, float near, int2 size, int pass,
+bool draw_across(int index, Triangle t, float4 camera, float near, int2 size, int pass,
                  global volatile uint* nearest, global volatile uint* seen) {
   const float rounding = 4e-7f;
   const Plane plane = plane_of(t);
@@ -118,6 +119,7 @@ void draw_across(int index, Triangle t, float4 camera, float near, int2 size, in
   const float sign = dot(bc, t.a) < 0 ? -1.0f : 1.0f;
   const float3 slack =
       rounding * (float3)(length(t.b) * length(t.c), length(t.c) * length(t.a), length(t.a) * length(t.b));
+  bool is_shown = false;
   for (int v = 0; v < size.y; ++v) {
     for (int u = 0; u < size.x; ++u) {
       const float3 ray = ray_through(u, v, camera);
@@ -127,27 +129,28 @@ void draw_across(int index, Triangle t, float4 camera, float near, int2 size, in
           !(shares.x + shares.y + shares.z > tolerance.x + tolerance.y + tolerance.z))
         continue;
       const float depth = depth_on(plane, dot(plane.normal, ray));
-      if (depth >= near) show(index, depth, v * size.x + u, pass, nearest, seen);
+      if (depth >= near) is_shown |= show(index, depth, v * size.x + u, pass, nearest, seen);
     }
   }
+  return is_shown;
 }
 
+// `may_be_seen`: of each triangle, what the first pass found; the second passes over the others.
 kernel void draw(global const int* triangles, int count, global const float* points, global const int* places,
                  float4 camera, float near, int2 size, int pass, global volatile uint* nearest,
-                 global volatile uint* seen) {
+                 global volatile uint* seen, global uchar* may_be_seen) {
   const int index = get_global_id(0);
-  if (index >= count) return;
+  if (index >= count || (pass == 1 && !may_be_seen[index])) return;
   const int3 corners = vload3(index, triangles);
   const Triangle t = triangle_of(corners, points);
   const int2 a = vload2(corners.x, places), b = vload2(corners.y, places), c = vload2(corners.z, places);
-  if (a.x != OUTSIDE && b.x != OUTSIDE && c.x != OUTSIDE) {
-    draw_placed(index, t, convert_long2(a), convert_long2(b), convert_long2(c), camera, size, pass, nearest,
-                seen);
-    return;
-  }
-  const Plane plane = plane_of(t);
-  const bool is_finite = all(isfinite(t.a)) && all(isfinite(t.b)) && all(isfinite(t.c));
-  if (is_finite && plane.farthest >= near) draw_across(index, t, camera, near, size, pass, nearest, seen);
+  bool is_shown = false;
+  if (a.x != OUTSIDE && b.x != OUTSIDE && c.x != OUTSIDE)
+    is_shown = draw_placed(index, t, convert_long2(a), convert_long2(b), convert_long2(c), camera, size, pass,
+                           nearest, seen);
+  else if (all(isfinite(t.a)) && all(isfinite(t.b)) && all(isfinite(t.c)) && plane_of(t).farthest >= near)
+    is_shown = draw_across(index, t, camera, near, size, pass, nearest, seen);
+  if (pass == 0) may_be_seen[index] = is_shown ? 1 : 0;
 }
 
 // The shares of the triangle's second and third corner in the point that a ray meets.

@@ -77,6 +77,7 @@ MeshView MeshRenderer::render(const Array<float>& vertices, const Camera& camera
   MeshView view{camera, Array<cl_int>(pixels), Array<float>(pixels), Array<float>(2 * pixels)};
   const Buffer places = device_.allocate(2 * sizeof(cl_int) * vertices_);
   const Buffer nearest = device_.allocate(sizeof(cl_uint) * pixels);
+  const Buffer may_be_seen = device_.allocate(count);
   const Buffer& seen = view.triangles.write_device(device_);
   auto clear = kernel_of(device_, "clear");
   auto place = kernel_of(device_, "place");
@@ -87,8 +88,8 @@ MeshView MeshRenderer::render(const Array<float>& vertices, const Camera& camera
               pinhole(camera), near, places);
   for (const cl_int pass : {0, 1})
     device_.run(stage, draw, count, 16, triangles_.device(device_), static_cast<cl_int>(count),
-                vertices.device(device_), places, pinhole(camera), near, size_of(camera), pass, nearest,
-                seen);
+                vertices.device(device_), places, pinhole(camera), near, size_of(camera), pass, nearest, seen,
+                may_be_seen);
   device_.run(stage, resolve, runs_of(device_, camera), 16, triangles_.device(device_),
               vertices.device(device_), pinhole(camera), size_of(camera), nearest, seen,
               view.depth.write_device(device_), view.shares.write_device(device_));

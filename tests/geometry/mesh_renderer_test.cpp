@@ -169,6 +169,16 @@ TEST_F(MeshRendererTest, GivesTheSameBitsAgain) {
   EXPECT_EQ(first.shares.host(), second.shares.host());
 }
 
+TEST_F(MeshRendererTest, SeesTheSameOnDevicesOfOtherShapes) {
+  Device other("any", {1, 4, ""});
+  const Ball dented = ball({0, 0, 450}, 200, 60, 40);
+  const MeshView view = render(dented.points, dented.triangles);
+  const MeshView narrow = MeshRenderer(other, dented.triangles, dented.points.size())
+                              .render(flatten(dented.points), kCamera);
+  EXPECT_EQ(view.triangles.host(), narrow.triangles.host());
+  EXPECT_EQ(view.depth.host(), narrow.depth.host());
+}
+
 TEST_F(MeshRendererTest, InterpolatesWhatVerticesHave) {
   const Ball dented = ball({0, 0, 450}, 200, 30, 20);
   const MeshRenderer renderer(device_, dented.triangles, dented.points.size());
