@@ -114,7 +114,7 @@ TEST(MeshTruth, IsTrueOfEveryFigureInEveryPose) {
       MeshScene scene = dynamic_cast<const MeshStream&>(*stream).scene();
       scene.keys.back().pose = read_pose(figure, {pose.name + "=1"}, "test");
       const MeshStream posed(std::make_shared<const MeshScene>(std::move(scene)), shared_device(), 1);
-      const Counts counts = check_truth(posed, 29);
+      const Counts counts = check_truth(posed, 17);
       EXPECT_GT(counts.visible, 15);
       EXPECT_LE(50 * counts.touching, counts.visible) << "fingers of a fist touch";
     }
