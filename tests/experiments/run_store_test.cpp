@@ -156,8 +156,8 @@ TEST_F(UnfinishedTest, ARunThatFailsKeepsNoOtherFromBeingMadeAndTold) {
   ASSERT_EQ(json["failed"].size(), 1U);
   EXPECT_EQ(json["failed"][0]["name"], "bad");
   EXPECT_THAT(json["failed"][0]["error"].get<std::string>(), HasSubstr("small.yaml, run bad: "));
-  EXPECT_EQ(files(),
-            (std::set<std::string>{".pliant", "result.json", "experiment.yaml", "index.html", "a", "c"}));
+  EXPECT_EQ(files(), (std::set<std::string>{".pliant", "result.json", "results.csv", "experiment.yaml",
+                                            "index.html", "a", "c"}));
 }
 
 TEST_F(UnfinishedTest, TheOverviewNamesTheRunsThatFailed) {

@@ -152,8 +152,8 @@ TEST_F(RunnerTest, ASingleRunIsWrittenAtTheTop) {
 
 TEST_F(RunnerTest, SeveralRunsGetAFolderEachAndAPageOverAll) {
   const ordered_json result = run(plan("runs: {coarse: {graph: {spacing: 14}}, fine: }"), "out");
-  EXPECT_EQ(files_of("out"), (std::set<std::string>{".pliant", "result.json", "experiment.yaml", "index.html",
-                                                    "coarse", "fine"}));
+  EXPECT_EQ(files_of("out"), (std::set<std::string>{".pliant", "result.json", "results.csv",
+                                                    "experiment.yaml", "index.html", "coarse", "fine"}));
   EXPECT_TRUE(files_of("out/fine").contains("registered.ply"));
   ASSERT_EQ(result["runs"].size(), 2U);
   EXPECT_EQ(result["runs"][0]["name"], "coarse");
@@ -178,7 +178,7 @@ TEST_F(RunnerTest, ReportsAreThoseOfTheExperiment) {
         "data: {type: synthetic_sheet, image_width: 80, image_height: 60, focal_length: 65.6}\n"
         "graph: {spacing: 8}\n"
         "energies: {rotation: , regularization: , constraint: }\n"
-        "stopping: {max_iterations: 1}\n");
+        "stopping: {max_iterations: 1}\nreports: {}\n");
   const ExperimentPlan bare = plan_experiment({file("bare.yaml"), {}, {}, {}}, registry_);
   run(bare, "bare");
   EXPECT_EQ(files_of("bare"), (std::set<std::string>{".pliant", "result.json", "experiment.yaml"}));
@@ -254,7 +254,7 @@ TEST_F(RunnerTest, ARerunReplacesTheOldResultWholeAndLeavesOtherFiles) {
   run(plan("runs: {coarse: {graph: {spacing: 14}}, fine: }"), "out");
   write("out/notes.txt", "mine");
   write("out/coarse/notes.txt", "mine, too");
-  run(plan("reports: {page: }"), "out");
+  run(plan("reports: {surfaces: }"), "out");
   EXPECT_FALSE(fs::exists(file("out/fine")));
   EXPECT_EQ(files_of("out/coarse"), std::set<std::string>{"notes.txt"});
   EXPECT_EQ(text_of("out/notes.txt"), "mine");
