@@ -44,7 +44,9 @@ struct SequenceFiles {
         depth(matching_files(sequence, "depth/*.png")),
         color(matching_files(sequence, "color/*.jpg")),
         masks(matching_files(sequence, "mask/*.png")),
-        flows(matching_files(sequence, "scene_flow/*.sflow")) {
+        flows(matching_files(sequence, "scene_flow/*.sflow")),
+        optical_flows(matching_files(sequence, "optical_flow/*.oflow")),
+        visible(matching_files(sequence, "visible/*.png")) {
     color.merge(matching_files(sequence, "color/*.png"));
     if (depth.empty()) throw DataError(folder + ": no depth images; expected depth/*.png");
     for (const auto& [number, file] : depth)
@@ -57,6 +59,8 @@ struct SequenceFiles {
   FilesByKey color;  // FRAME
   FilesByKey masks;  // FRAME or FRAME_OBJECT
   FilesByKey flows;  // OBJECT_SOURCE_TARGET
+  FilesByKey optical_flows;
+  FilesByKey visible;
 };
 
 std::string path_or_empty(const FilesByKey& files, const std::string& key) {
@@ -109,13 +113,20 @@ FrameFiles files_of(const std::string& frame, const std::string& object, const S
   return found;
 }
 
+TruthFiles truth_of(const std::string& object, const std::string& source, const std::string& target,
+                    const SequenceFiles& files) {
+  const std::string key = fmt::format("{}_{}_{}", object, source, target);
+  return {path_or_empty(files.flows, key), path_or_empty(files.optical_flows, key),
+          path_or_empty(files.visible, key)};
+}
+
 /// All frames; the motion to each is that from `frame`.
 std::vector<Sequence::Item> frames_from(const std::string& frame, const std::string& object,
                                         const SequenceFiles& files) {
   std::vector<Sequence::Item> frames;
   for (const auto& [number, depth] : files.depth)
     frames.push_back({files_of(number, object, files), std::stoi(number) / frames_a_second,
-                      path_or_empty(files.flows, fmt::format("{}_{}_{}", object, frame, number))});
+                      truth_of(object, frame, number, files)});
   return frames;
 }
 
@@ -155,7 +166,7 @@ class DeepDeform : public FrameSource {
     // The target may be an earlier frame, but is given as the later one.
     return {{files_of(source, object, files), 0},
             {files_of(target, object, files), std::abs(pair_->target - pair_->source) / frames_a_second,
-             path_or_empty(files.flows, fmt::format("{}_{}_{}", object, source, target))}};
+             truth_of(object, source, target, files)}};
   }
 
   std::string existing(std::int64_t number, const SequenceFiles& files) const {

@@ -60,14 +60,22 @@ Frame read_frame(const FrameFiles& files, const DepthUnits& units, bool color_ha
   return frame;
 }
 
-PairTruth read_truth(const std::string& scene_flow, const Frame& source, const std::string& depth) {
-  PairTruth truth{read_scene_flow(scene_flow)};
-  check_size(truth.scene_flow, scene_flow, source.depth, depth_named(depth));
+PairTruth read_truth(const TruthFiles& files, const Frame& source, const std::string& depth) {
+  PairTruth truth{read_scene_flow(files.scene_flow)};
+  check_size(truth.scene_flow, files.scene_flow, source.depth, depth_named(depth));
+  if (!files.optical_flow.empty()) {
+    truth.optical_flow = read_optical_flow(files.optical_flow);
+    check_size(truth.optical_flow, files.optical_flow, source.depth, depth_named(depth));
+  }
+  if (!files.visible.empty()) {
+    truth.visible = read_mask(files.visible);
+    check_size(truth.visible, files.visible, source.depth, depth_named(depth));
+  }
   for (std::size_t i = 0; i < truth.scene_flow.size(); ++i) {
     if (has_point(source, i) && truth.scene_flow.pixels()[i].allFinite()) return truth;
   }
   // It belongs to another image.
-  throw DataError(fmt::format("{}: no ground truth on any point of the source", scene_flow));
+  throw DataError(fmt::format("{}: no ground truth on any point of the source", files.scene_flow));
 }
 
 std::string depth_named(const std::string& path) { return "the depth image " + path; }

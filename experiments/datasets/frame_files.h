@@ -27,9 +27,16 @@ struct DepthUnits {
 /// the depth's size, unless a camera of its own sees it.
 Frame read_frame(const FrameFiles& files, const DepthUnits& units, bool color_has_own_camera = false);
 
-/// Reads the true motion of the frame `source`, whose depth is that of the file `depth`. Throws DataError
-/// naming the file at fault when the sizes differ or the truth says nothing of any point of the source.
-PairTruth read_truth(const std::string& scene_flow, const Frame& source, const std::string& depth);
+/// The files of what is known of a pair. A path is empty where there is no file.
+struct TruthFiles {
+  std::string scene_flow;         ///< metres; without it nothing is known
+  std::string optical_flow = {};  ///< pixels
+  std::string visible = {};       ///< a mask of what the target shows
+};
+
+/// Reads what is known of the frame `source`, whose depth is that of the file `depth`. Throws DataError
+/// naming the file at fault when the sizes differ or the scene flow says nothing of any point of the source.
+PairTruth read_truth(const TruthFiles& files, const Frame& source, const std::string& depth);
 
 /// "the depth image PATH".
 std::string depth_named(const std::string& path);

@@ -98,7 +98,7 @@ std::unique_ptr<DataStream> RgbdPair::open(Device& /*device*/, std::uint64_t /*s
   add(doubts_about_depth(pair.source, depth_scale, settings_.source.depth), pair.warnings);
   add(doubts_about_depth(pair.target, depth_scale, settings_.target.depth), pair.warnings);
   if (!settings_.scene_flow.empty())
-    pair.truth = read_truth(settings_.scene_flow, pair.source, settings_.source.depth);
+    pair.truth = read_truth({settings_.scene_flow}, pair.source, settings_.source.depth);
   return std::make_unique<StoredPairStream>(std::move(pair));
 }
 

@@ -65,9 +65,10 @@ class SequenceStream : public DataStream {
 
   std::optional<PairTruth> truth(int number) const override {
     const auto index = static_cast<std::size_t>(number - 1);
-    if (index >= sequence_.frames.size() || sequence_.frames[index].scene_flow.empty()) return std::nullopt;
+    if (index >= sequence_.frames.size() || sequence_.frames[index].truth.scene_flow.empty())
+      return std::nullopt;
     const FrameFiles& files = sequence_.frames.front().files;
-    return read_truth(sequence_.frames[index].scene_flow, read_frame(files, sequence_.units), files.depth);
+    return read_truth(sequence_.frames[index].truth, read_frame(files, sequence_.units), files.depth);
   }
 
  private:

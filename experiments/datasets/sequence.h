@@ -27,9 +27,8 @@ DepthUnits depth_units_of(const Parameters& section);
 struct Sequence {
   struct Item {
     FrameFiles files;
-    double time = 0;  ///< s
-    /// The true motion from the sequence's first frame to this one; empty where none is known.
-    std::string scene_flow = {};
+    double time = 0;        ///< s
+    TruthFiles truth = {};  ///< of the sequence's first frame and this one
   };
   std::string name;
   std::vector<Item> frames;

@@ -63,6 +63,23 @@ TEST_F(DeepDeformFolder, OrAPairByTheNumbersOfItsFiles) {
   EXPECT_FALSE(back.truth);
 }
 
+TEST_F(DeepDeformFolder, OpticalFlowAndWhatIsSeenAreReadWithTheMotion) {
+  make_folder("optical_flow");
+  make_folder("visible");
+  write_optical_flow(file("optical_flow/shirt_000000_000080.oflow"),
+                     Image<Eigen::Vector2f>(width, height, Eigen::Vector2f(3, 4)));
+  MaskImage visible(width, height, 0);
+  visible(7, 8) = 1;
+  write_mask(file("visible/shirt_000000_000080.png"), visible);
+  const PairTruth truth = open(section())->truth(3).value();
+  EXPECT_EQ(truth.optical_flow(7, 7), Eigen::Vector2f(3, 4));
+  EXPECT_EQ(truth.visible.pixels(), visible.pixels());
+  write_optical_flow(file("optical_flow/shirt_000000_000080.oflow"),
+                     Image<Eigen::Vector2f>(2, 3, Eigen::Vector2f(3, 4)));
+  EXPECT_THAT(testing::data_error_of([&] { open(section())->truth(3); }),
+              AllOf(HasSubstr("shirt_000000_000080.oflow: 2x3"), HasSubstr("40x30")));
+}
+
 TEST_F(DeepDeformFolder, MotionIsThatFromTheFirstFrameTaken) {
   write_scene_flow(file("scene_flow/shirt_000040_000080.sflow"),
                    Image<Eigen::Vector3f>(width, height, Eigen::Vector3f(0, 0, 100)));

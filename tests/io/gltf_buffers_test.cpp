@@ -39,7 +39,7 @@ class GltfBuffers : public testing::TestFiles {
   }
   std::string error_with(const std::string& uri) const {
     const std::string path = with_uri(uri);
-    const std::string error = data_error_of([&] { read_gltf(path); });
+    std::string error = data_error_of([&] { read_gltf(path); });
     EXPECT_THAT(error, HasSubstr(path));
     return error;
   }

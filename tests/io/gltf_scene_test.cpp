@@ -31,7 +31,7 @@ class GltfSceneFile : public testing::TestFiles {
 
   std::string error_of(const GlbFile& glb) const {
     const std::string path = write("scene.glb", glb.bytes());
-    const std::string error = data_error_of([&] { read_gltf_scene(path); });
+    std::string error = data_error_of([&] { read_gltf_scene(path); });
     EXPECT_THAT(error, HasSubstr(path));
     return error;
   }

@@ -14,7 +14,6 @@
 namespace pliant {
 namespace {
 
-using ::testing::AllOf;
 using testing::data_error_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
