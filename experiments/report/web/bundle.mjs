@@ -1,5 +1,5 @@
 // node bundle.mjs: report.js and report.css beside this file, of everything that the pages' figures need.
-import { build } from "esbuild";
+import { build } from "esbuild-wasm";
 import { readFileSync } from "node:fs";
 
 const licences = ["uplot", "three"]

@@ -13,11 +13,12 @@ function sayThatThereIsNone(figure) {
 export function showViews() {
   const figures = [...document.querySelectorAll(".view-figure")];
   if (figures.length === 0) return;
-  const highest = Math.max(...figures.map((figure) => Number(figure.dataset.scale)));
+  const scales = figures.map((figure) => Number(figure.dataset.scale)).sort((a, b) => a - b);
   const viewers = [];
-  // One scale for all, so that a colour means the same everywhere on the page.
+  // One scale for all, so that a colour means the same everywhere on the page: that of the one in the middle, or a
+  // single bad run would make all others alike.
   const setScale = (value) => viewers.forEach((viewer) => viewer.setScale(value));
-  const scale = { value: highest, set: (value) => { scale.value = value; setScale(value); } };
+  const scale = { value: scales[Math.floor(scales.length / 2)], set: (value) => { scale.value = value; setScale(value); } };
   let stage;
   const show = (figure) => {
     stage ??= makeStage();
