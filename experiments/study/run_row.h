@@ -31,8 +31,8 @@ RunRow make_run_row(const std::string& name, const nlohmann::ordered_json& json)
 class RowFilter {
  public:
   RowFilter() = default;
-  /// Conditions as "method=ED"; "method=Ad*" takes whatever begins so. Throws ConfigError, which begins with `place`, for one of another form, or
-  /// whose axis or value no row has.
+  /// Conditions as "method=ED"; "method=Ad*" takes whatever begins so. Throws ConfigError, which begins with
+  /// `place`, for one of another form, or whose axis or value no row has.
   RowFilter(const std::vector<std::string>& conditions, const std::vector<RunRow>& rows,
             const std::string& place);
 
