@@ -14,7 +14,7 @@ file(WRITE "${OUTPUT}" "// Made from ${RELATIVE}; do not edit.
 #pragma once
 #include <string_view>
 namespace pliant::embedded {
-inline constexpr char ${SYMBOL}_text[] = ""
+inline constexpr char ${SYMBOL}_text[] = \"\"
 ${PIECES};
 inline constexpr std::string_view ${SYMBOL}{${SYMBOL}_text, sizeof ${SYMBOL}_text - 1};
 }

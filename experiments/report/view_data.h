@@ -49,7 +49,7 @@ struct ViewData {
 };
 
 /// About so many bytes of points may a view have, so that a page can hold ten.
-inline constexpr std::size_t view_bytes = 1'100'000;
+inline constexpr std::size_t view_bytes = 900'000;
 
 /// How many points of the source a view of so many steps should have at most.
 std::size_t view_points(std::size_t steps, bool has_truth);

@@ -94,7 +94,13 @@ class Gathering {
  private:
   static ViewData::Graph graph_of(const IterationRecorder::Graph& graph, const ThinnedSurface& source) {
     ViewData::Graph shown{graph.edges, {}};
-    for (const GraphCell& cell : graph.cells) shown.cells.push_back(source.outline(cell));
+    std::set<std::pair<int, int>> drawn;  // neighbours share a rim
+    for (const GraphCell& cell : graph.cells) {
+      shown.cells.push_back(source.outline(cell));
+      std::erase_if(shown.cells.back().lines, [&](const auto& line) {
+        return !drawn.insert(std::minmax(line.first, line.second)).second;
+      });
+    }
     return shown;
   }
 

@@ -99,9 +99,9 @@ TEST(ViewJson, StaysSmallWithAsManyPointsAsItShouldHave) {
       if (!has_truth)
         for (auto& step : data.steps) step.truth.clear();
       const std::size_t size = view_json(data).dump().size();
-      EXPECT_LT(size, 1'250'000U) << steps << " steps";
+      EXPECT_LT(size, 1'050'000U) << steps << " steps";
       EXPECT_LE(points, 12'000U);
-      EXPECT_GT(points, 4'000U);
+      EXPECT_GT(points, 3'500U);
     }
 }
 

@@ -12,13 +12,14 @@ const pictures = `${process.cwd()}/screenshots`;
 
 const sandbox = process.getuid() === 0 ? ["--no-sandbox"] : [];  // Chromium refuses to have one as root
 const softwareWebGL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const smallMemory = ["--disable-dev-shm-usage"];  // containers share little
 
 export async function openBrowser(webGL = softwareWebGL) {
   mkdirSync(pictures, { recursive: true });
   return chromium.launch({
     executablePath: process.env.PLIANT_CHROMIUM,
     ignoreDefaultArgs: ["--hide-scrollbars"],
-    args: [...sandbox, ...webGL],
+    args: [...sandbox, ...smallMemory, ...webGL],
   });
 }
 

@@ -26,9 +26,10 @@ export class Viewer {
 
   build(figure) {
     this.canvas = element("canvas");
-    this.canvas.setAttribute("aria-label", "The run in three dimensions; drag to turn, scroll to come nearer");
+    this.canvas.setAttribute("aria-label", "The run in three dimensions");
     this.legend = element("div", "view-scale");
-    const box = element("div", "view-box", this.canvas, this.legend);
+    const hint = element("div", "view-hint", "drag to turn, with the right button to move; click, then scroll to come nearer");
+    const box = element("div", "view-box", this.canvas, this.legend, hint);
     this.status = element("p", "view-status");
     const place = element("div", "live view-live", box, this.makeTimeline(), this.status, this.makeSwitches());
     const picture = figure.querySelector(".view-static");
@@ -37,6 +38,10 @@ export class Viewer {
     this.camera = new PerspectiveCamera(35, 1, 1, 1e5);
     this.orbit = new OrbitControls(this.camera, this.canvas);
     this.orbit.addEventListener("change", () => this.draw());
+    // Who scrolls through the page shall not be caught by a view.
+    this.orbit.enableZoom = false;
+    this.canvas.addEventListener("pointerdown", () => { this.orbit.enableZoom = true; });
+    this.canvas.addEventListener("pointerleave", () => { this.orbit.enableZoom = false; });
     new ResizeObserver(() => this.resize()).observe(box);
   }
 
