@@ -64,7 +64,7 @@ TEST_F(TumFolder, GivesTheFramesThatAreSelected) {
   EXPECT_THAT(error_of(section(", first: 6")), HasSubstr("frame 6 is to be the first, but it has 5"));
 }
 
-TEST_F(TumFolder, TakesTheAssociationsWhichverComesFirst) {
+TEST_F(TumFolder, TakesTheAssociationsWhicheverComesFirst) {
   write("associations.txt",
         std::string("1.0 rgb/2.png 1.01 depth/0.png\r\n2.0 rgb/1.png 2.01 depth/3.png\r\n"));
   auto frames = frames_of(*open(section()));
