@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstring>
@@ -10,8 +11,6 @@
 #include "experiments/program/output.h"
 #include "experiments/runner/stored_result.h"
 #include "framework/core/error.h"
-
-extern char** environ;
 
 namespace pliant {
 namespace {

@@ -28,7 +28,7 @@ bool is_there(const fs::path& file) {
 /// The folder of the whole result: this one, or the one above.
 fs::path root_of(const fs::path& folder) {
   if (is_there(folder / ".pliant")) return folder;
-  const fs::path above = fs::absolute(folder / "x").lexically_normal().parent_path().parent_path();
+  fs::path above = fs::absolute(folder / "x").lexically_normal().parent_path().parent_path();
   if (is_there(folder / "run.json") && is_there(above / ".pliant")) return above;
   throw DataError(folder.string() + (is_there(folder)
                                          ? ": holds no result; expected a folder that pliant run has made"

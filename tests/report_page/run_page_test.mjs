@@ -47,6 +47,7 @@ test("the slider goes through the iterations, and play does", async () => {
   assert.match(await status.innerText(), /after the initial alignment · mean distance \d+\.\d\d mm/);
   await page.locator("button.play").click();
   await eventually(async () => /iteration [1-9]/.test(await status.innerText()), "no other iteration was played");
+  await eventually(async () => await page.locator("button.play").innerText() === "play", "it plays on");
 });
 
 test("errors can be those to the truth, on another scale", async () => {
