@@ -63,10 +63,10 @@ kernel void place(global const float* points, int count, float4 camera, float ne
 // Both are passes of one kernel, so that they round alike. Tells in the first whether the depth may be that.
 bool show(int triangle, float depth, int pixel, int pass, global volatile uint* nearest,
           global volatile uint* seen) {
-  const uint bits = as_uint(depth), known = nearest[pixel];
-  if (pass == 0 && bits < known) atomic_min(nearest + pixel, bits);
-  if (pass == 1 && bits == known) atomic_min(seen + pixel, (uint)triangle);
-  return bits <= known;
+  const uint bits = as_uint(depth);
+  if (pass == 0) return bits <= atomic_min(nearest + pixel, bits);
+  if (bits == nearest[pixel]) atomic_min(seen + pixel, (uint)triangle);
+  return false;
 }
 
 // Twice the area of (p, q, r), positive when they run clockwise in the image.

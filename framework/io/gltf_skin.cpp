@@ -20,7 +20,7 @@ void keep_largest(GltfJoints::Share share, GltfJoints::Shares& largest) {
 }  // namespace
 
 GltfJoints::GltfJoints(const GltfDocument& document, const std::vector<GltfNode>& nodes, double unit)
-    : document_(document), nodes_(nodes), unit_(unit), is_bound_(nodes.size(), false) {
+    : document_(document), unit_(unit), is_bound_(nodes.size(), false) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     joints_.push_back(
         {nodes[i].name, nodes[i].parent, in_millimetres(nodes[i].local), Eigen::Affine3d::Identity()});

@@ -21,7 +21,7 @@ class GltfJoints {
   using Share = std::pair<float, std::uint32_t>;  ///< a weight, and which of the skin's joints has it
   using Shares = std::array<Share, 4>;
 
-  /// A joint for every node, in their order. Both must outlive this.
+  /// A joint for every node, in their order. The document must outlive this.
   GltfJoints(const GltfDocument& document, const std::vector<GltfNode>& nodes, double unit);
 
   /// Weights of a vertex that a node carries as it is.
@@ -40,7 +40,6 @@ class GltfJoints {
   JointWeights to_weights(const Shares& largest, const std::vector<int>& joints, std::size_t vertex) const;
 
   const GltfDocument& document_;
-  const std::vector<GltfNode>& nodes_;
   double unit_;
   std::vector<Joint> joints_;
   std::vector<bool> is_bound_;           // of each node: whether its joint carries something already
