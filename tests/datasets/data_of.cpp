@@ -26,7 +26,8 @@ std::unique_ptr<FrameSource> data_of(const std::string& section) {
 }
 
 Device& shared_device() {
-  static Device device;
+  // Never closed: OpenCL drivers end before what is static here does.
+  static Device& device = *new Device;
   return device;
 }
 
