@@ -37,7 +37,7 @@ class ChartMaker {
  public:
   ChartMaker(const Parameters& section, const std::vector<RunRow>& rows)
       : section_(section), rows_(rows), where_(section.words("where")), axis_(section.text("over")) {
-    RowFilter(where_, rows, section.place());
+    check_conditions(where_, rows, section.place());
     labels_ = values_on(axis_, rows, section.place());
     if (!section.has("x")) return;
     x_.emplace(section.text("x"), section.place());

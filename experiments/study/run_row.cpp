@@ -74,6 +74,11 @@ bool RowFilter::takes(const RunRow& row) const {
   });
 }
 
+void check_conditions(const std::vector<std::string>& conditions, const std::vector<RunRow>& rows,
+                      const std::string& place) {
+  const RowFilter filter(conditions, rows, place);
+}
+
 std::vector<std::string> values_on(const std::string& axis, const std::vector<RunRow>& rows,
                                    const std::string& place) {
   std::vector<std::string> values;

@@ -42,6 +42,10 @@ class RowFilter {
   std::vector<SweptValue> conditions_;
 };
 
+/// Throws what making such a filter would.
+void check_conditions(const std::vector<std::string>& conditions, const std::vector<RunRow>& rows,
+                      const std::string& place);
+
 /// The values that the rows have on an axis, each once, in the order of the rows. Throws ConfigError, which
 /// begins with `place` and names the nearest axis, where they have none.
 std::vector<std::string> values_on(const std::string& axis, const std::vector<RunRow>& rows,
