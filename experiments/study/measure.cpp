@@ -21,7 +21,7 @@ Measure::Measure(const Parameters& section, const std::vector<RunRow>& rows)
       rows_(rows),
       expression_(section.text("value"), place_),
       where_(section.words("where")) {
-  RowFilter(where_, rows, place_);
+  check_conditions(where_, rows, place_);
 }
 
 Sample Measure::sample(const std::vector<std::string>& conditions) const {

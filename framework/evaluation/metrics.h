@@ -25,8 +25,8 @@ struct Metrics {
     double epe_sd = 0;
     double epe_p95 = 0;          ///< the least error that 95 % of the points do not exceed
     double epe_moving_mean = 0;  ///< over points whose true motion exceeds 1 mm; 0 when there is none
-    /// Over points whose true position the target shows. Where the truth does not know: one of its points lies
-    /// within 10 mm there, in one of the 3 x 3 pixels around.
+    /// Over points whose true position the target shows. Where the truth does not know: one of its points
+    /// lies within 10 mm there, in one of the 3 x 3 pixels around.
     double epe_seen_mean = 0;
     double epe_hidden_mean = 0;  ///< over the others: covered, cut off or out of view
     double hidden_share = 0;     ///< of the points with truth

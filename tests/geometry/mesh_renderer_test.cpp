@@ -173,8 +173,8 @@ TEST_F(MeshRendererTest, SeesTheSameOnDevicesOfOtherShapes) {
   Device other("any", {1, 4, ""});
   const Ball dented = ball({0, 0, 450}, 200, 60, 40);
   const MeshView view = render(dented.points, dented.triangles);
-  const MeshView narrow = MeshRenderer(other, dented.triangles, dented.points.size())
-                              .render(flatten(dented.points), kCamera);
+  const MeshView narrow =
+      MeshRenderer(other, dented.triangles, dented.points.size()).render(flatten(dented.points), kCamera);
   EXPECT_EQ(view.triangles.host(), narrow.triangles.host());
   EXPECT_EQ(view.depth.host(), narrow.depth.host());
 }
