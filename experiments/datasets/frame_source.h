@@ -11,6 +11,9 @@
 
 namespace pliant {
 
+/// Of data that is made: frames a second.
+inline constexpr double frame_rate = 30;
+
 /// A stream of an experiment's data. Its truth is asked for apart, by who measures results, and never goes
 /// with the frames.
 class DataStream : public FrameStream {

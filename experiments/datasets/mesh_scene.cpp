@@ -10,8 +10,6 @@
 namespace pliant {
 namespace {
 
-constexpr double frame_rate = 30;
-
 /// From the mesh's frame (y up, looking along +z) to the scene's, the middle of the mesh in the origin.
 Eigen::Affine3d facing_the_camera(const Eigen::Vector3d& middle) {
   return Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()) * Eigen::Translation3d(-middle);
@@ -54,20 +52,20 @@ MeshPose MeshScene::beneath_at(double time) const {
 std::vector<Eigen::Vector3d> MeshScene::vertices_at(double time) const {
   const SceneKey state = state_at(time);
   const Eigen::Affine3d placed = state.camera.camera_from_scene() * Eigen::Translation3d(0, 0, distance) *
-                                 state.motion.transform() * facing_the_camera(box().center());
+                                 state.motion.transform() * facing_the_camera(box.center());
   std::vector<Eigen::Vector3d> vertices = mesh.deform(on_top(on_top(beneath_at(time), base), state.pose));
   for (Eigen::Vector3d& vertex : vertices) vertex = placed * vertex;
   return vertices;
 }
 
-Eigen::AlignedBox3d MeshScene::box() const {
+Eigen::AlignedBox3d box_around(const Mesh& mesh, const FigurePose& base) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.deform(on_top(mesh.rest(), base))) box.extend(vertex);
   return box;
 }
 
 std::string MeshScene::described_size() const {
-  const Eigen::Vector3d size = box().sizes();
+  const Eigen::Vector3d size = box.sizes();
   return fmt::format("it is {:.6g} x {:.6g} x {:.6g} mm", size.x(), size.y(), size.z());
 }
 

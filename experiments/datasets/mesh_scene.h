@@ -8,6 +8,7 @@
 #include "experiments/datasets/camera_path.h"
 #include "experiments/datasets/depth_sensor.h"
 #include "experiments/datasets/figure_pose.h"
+#include "experiments/datasets/frame_source.h"
 #include "experiments/datasets/rigid_motion.h"
 #include "experiments/datasets/surface_color.h"
 #include "framework/geometry/animation.h"
@@ -41,7 +42,9 @@ struct MeshScene {
   std::string what;  ///< is seen, as errors begin with it: "head", or the path of a file
   std::string name;  ///< of the stream
   Mesh mesh;
-  FigurePose base;                                          ///< of every frame, beneath what the keys say
+  FigurePose base;  ///< of every frame, beneath what the keys say
+  /// Around the mesh in its own frame, before any key has a say and at rest but for its base.
+  Eigen::AlignedBox3d box;
   std::optional<PlayedAnimation> animation = std::nullopt;  ///< beneath both
   double distance = 0;  ///< mm, from a depth camera that has not moved to the middle of the mesh
   Rig rig;
@@ -57,14 +60,15 @@ struct MeshScene {
   SceneKey state_at(double time) const;
   /// The vertices at some time, mm in the depth camera's frame.
   std::vector<Eigen::Vector3d> vertices_at(double time) const;
-  /// The box around the mesh in its own frame, before any key has a say and at rest but for its base.
-  Eigen::AlignedBox3d box() const;
   /// "it is 1 x 2 x 3 mm".
   std::string described_size() const;
 
  private:
   MeshPose beneath_at(double time) const;
 };
+
+/// The box that MeshScene has.
+Eigen::AlignedBox3d box_around(const Mesh& mesh, const FigurePose& base);
 
 /// Whether a point is inside of a mesh: more than half of all that it sees are back sides, however many holes
 /// the mesh has (winding number [Jacobson, Kavan, Sorkine-Hornung 2013] above one half).

@@ -47,7 +47,7 @@ std::unique_ptr<FrameSource> make_gltf(const Parameters& section, const Registry
       read_scene(section, figure, std::move(identity), file, std::filesystem::path(file).stem().string());
   if (section.has("animation")) scene.animation = read_animation(section, read.animations, scene);
   scene.warnings = std::move(read.warnings);
-  const double length = scene.box().sizes().maxCoeff();
+  const double length = scene.box.sizes().maxCoeff();
   if (length < smallest_mesh || length > largest_mesh)
     scene.warnings.push_back(
         fmt::format("{}: {}; if the file counts in another unit than {:g} mm, say which by mesh_scale", file,

@@ -13,7 +13,6 @@
 namespace pliant {
 namespace {
 
-constexpr double frame_rate = 30;
 constexpr int most_frames = 1000000;
 
 ParameterTable key_table() {
@@ -162,10 +161,12 @@ MeshScene read_scene(const Parameters& section, const Figure& figure, FigurePose
                      const std::string& what, const std::string& title) {
   const KeyReader reader(section, figure, what);
   const auto kind = section.text("texture") == "skin" ? SurfaceColor::Kind::skin : SurfaceColor::Kind::rich;
+  const Eigen::AlignedBox3d box = box_around(figure.mesh, base);
   MeshScene scene{what,
                   title,
                   figure.mesh,
                   std::move(base),
+                  box,
                   std::nullopt,
                   0,
                   read_rig(section),
@@ -174,8 +175,8 @@ MeshScene read_scene(const Parameters& section, const Figure& figure, FigurePose
                   SurfaceColor(kind, static_cast<std::uint64_t>(section.integer("texture_seed"))),
                   read_depth_sensor(section.section("sensor")),
                   {}};
-  scene.distance = section.has("distance") ? section.real("distance")
-                                           : fitting_distance(scene.box().sizes(), scene.rig.depth);
+  scene.distance =
+      section.has("distance") ? section.real("distance") : fitting_distance(box.sizes(), scene.rig.depth);
   if (section.sections("keys").empty())
     reader.read_pair(scene);
   else

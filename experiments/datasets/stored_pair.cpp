@@ -6,7 +6,7 @@ namespace pliant {
 
 StoredPairStream::StoredPairStream(StoredPair pair) : pair_(std::move(pair)) {
   pair_.source.time = 0;
-  pair_.target.time = 1.0 / 30;
+  pair_.target.time = 1 / frame_rate;
 }
 
 std::optional<Frame> StoredPairStream::next() {

@@ -77,7 +77,7 @@ class SheetStream : public DataStream {
     Frame frame = given_ == 1 ? flat() : bent(sheet_.partly(share_of(given_, frames_)));
     check_is_seen(frame.depth, given_ == 1 ? "flat" : "bent");
     noise_.disturb(frame.depth);
-    frame.time = (given_ - 1) / 30.0;
+    frame.time = (given_ - 1) / frame_rate;
     return frame;
   }
 

@@ -110,7 +110,7 @@ class Reproduction {
       studies_.push_back(planned.plan ? study(planned, result, time) : skipped(planned.item));
       for (const Table& table : studies_.back().tables) print("{}\n", to_text(table));
     }
-    if (are_all_failed_) std::rethrow_exception(failure_);
+    if (!has_made_ && failure_) std::rethrow_exception(failure_);
     write_page(result.unfinished());
     result.commit();
     return fs::absolute(out / page_name).lexically_normal();
@@ -164,7 +164,7 @@ class Reproduction {
     note_failure(made);
     if (made.runs.empty()) return failed(planned.item, made);
     result.keep();
-    are_all_failed_ = false;
+    has_made_ = true;
     return study_of(planned, made, folder);
   }
 
@@ -225,7 +225,7 @@ class Reproduction {
   ResultFolder::Files folders_;
   std::vector<Study> studies_;
   std::exception_ptr failure_;  // of the first run that failed
-  bool are_all_failed_ = true;
+  bool has_made_ = false;       // any run
 };
 
 }  // namespace

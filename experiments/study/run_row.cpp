@@ -26,6 +26,8 @@ bool is_wanted(const std::string& value, const std::string& wanted) {
   return value.starts_with(wanted.substr(0, wanted.size() - 1));
 }
 
+}  // namespace
+
 std::vector<std::string> axes_of(const std::vector<RunRow>& rows) {
   std::vector<std::string> axes;
   for (const RunRow& row : rows)
@@ -33,8 +35,6 @@ std::vector<std::string> axes_of(const std::vector<RunRow>& rows) {
       if (std::find(axes.begin(), axes.end(), value.name) == axes.end()) axes.push_back(value.name);
   return axes;
 }
-
-}  // namespace
 
 std::optional<std::string> RunRow::on(const std::string& axis) const {
   for (const SweptValue& value : axes)

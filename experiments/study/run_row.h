@@ -46,6 +46,9 @@ class RowFilter {
 void check_conditions(const std::vector<std::string>& conditions, const std::vector<RunRow>& rows,
                       const std::string& place);
 
+/// The axes that rows have values on, in their order.
+std::vector<std::string> axes_of(const std::vector<RunRow>& rows);
+
 /// The values that the rows have on an axis, each once, in the order of the rows. Throws ConfigError, which
 /// begins with `place` and names the nearest axis, where they have none.
 std::vector<std::string> values_on(const std::string& axis, const std::vector<RunRow>& rows,

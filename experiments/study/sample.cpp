@@ -23,8 +23,9 @@ Sample::Sample(const Expression& expression, const std::vector<RunRow>& rows, co
 double Sample::mean() const { return std::accumulate(values_.begin(), values_.end(), 0.0) / count(); }
 
 double Sample::deviation() const {
+  const double middle = mean();
   double sum = 0;
-  for (const double value : values_) sum += (value - mean()) * (value - mean());
+  for (const double value : values_) sum += (value - middle) * (value - middle);
   return std::sqrt(sum / count());
 }
 

@@ -60,13 +60,10 @@ Study make_study(const Parameters& section, const std::vector<RunRow>& rows) {
 }
 
 Table all_numbers(const std::vector<RunRow>& rows) {
-  std::vector<std::string> axes;
+  const std::vector<std::string> axes = axes_of(rows);
   std::set<std::string> numbers;
-  for (const RunRow& row : rows) {
-    for (const SweptValue& axis : row.axes)
-      if (std::find(axes.begin(), axes.end(), axis.name) == axes.end()) axes.push_back(axis.name);
+  for (const RunRow& row : rows)
     for (const auto& [name, value] : row.numbers) numbers.insert(name);
-  }
   Table table{"Runs", {"name"}, {}};
   table.header.insert(table.header.end(), axes.begin(), axes.end());
   table.header.insert(table.header.end(), numbers.begin(), numbers.end());
