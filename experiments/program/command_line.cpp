@@ -29,6 +29,7 @@ First steps:
   pliant reproduce --quick            everything that can be reproduced, in short
   pliant reproduce chapter5           the experiments of chapter 5 of the thesis
   pliant run experiments/sheet.yaml   one experiment; results in out/sheet
+  pliant track experiments/track_head.yaml    frames fused into a model; trajectory, model, page
   pliant view out/sheet --open        its page, with the run in three dimensions
   pliant components                   what experiment files can name
   pliant data make hand               frames with exact truth as files, in out/hand
@@ -57,6 +58,15 @@ An experiment on data of your own is a file like this one:
 
 Files that it names are looked for beside it, then below --data, the variable PLIANT_DATA and data/ of the
 project. Exit codes: 2 configuration, 3 data, 4 device, 5 numerical.
+)";
+
+constexpr const char* track_examples = R"(
+Examples:
+  pliant track experiments/track_head.yaml
+  pliant track my.yaml --data ~/recordings --out out/mine
+
+Every frame is in frames.jsonl, frames.csv and trajectory.txt as soon as it is tracked. Ctrl-C, or a camera that
+is unplugged (exit code 3), ends with the model and the report of what there is.
 )";
 
 constexpr const char* check_examples = R"(
@@ -167,6 +177,12 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   run->callback([&] { run_command(experiment); });
+
+  auto* track =
+      add_command(app, "track", "Tracks the frames of a stream and fuses them into a model", track_examples);
+  add_set_and_data(*track, experiment);
+  add_out(*track, experiment, "out/<name of the experiment>");
+  track->callback([&] { track_command(experiment); });
 
   auto* check =
       add_command(app, "check", "Tries everything of an experiment without registering", check_examples);

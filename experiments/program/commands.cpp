@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "experiments/program/folders.h"
+#include "experiments/program/interruption.h"
 #include "experiments/program/output.h"
 #include "experiments/program/progress_line.h"
 #include "experiments/runner/components.h"
@@ -46,8 +48,10 @@ void make(const Task& task, const ExperimentPlan& plan, const ExperimentOptions&
   const fs::path folder = out_folder(options, plan);
   Workbench workbench(registry, show_line);
   ProgressLine line;
-  const ExperimentResult result =
-      run_experiment(task, plan, folder, workbench, line.sink(), {options.repeats});
+  std::optional<FinishOnInterruption> interruption;
+  RunOptions how{options.repeats};
+  if (task.can_end_early()) how.is_ended = [&asked = interruption.emplace()] { return asked.is_asked(); };
+  const ExperimentResult result = run_experiment(task, plan, folder, workbench, line.sink(), how);
   line.clear();
   tell(task, plan, result, folder);
   check_ends(result);
@@ -65,14 +69,21 @@ void run_command(const ExperimentOptions& options) {
   make(*make_task(plan.experiment.values), plan, options, registry);
 }
 
+void track_command(const ExperimentOptions& options) {
+  const Registry registry = all_components();
+  const ExperimentPlan plan = plan_experiment(config_source(options), registry);
+  if (!plan.experiment.values.has("model"))
+    throw ConfigError(options.file +
+                      ": there is no model to track against; expected a key 'model', as in model: tsdf");
+  make(*make_track_task(), plan, options, registry);
+}
+
 void check_command(const ExperimentOptions& options) {
   const Registry registry = all_components();
   const ExperimentPlan plan = plan_experiment(config_source(options), registry);
   Workbench workbench(registry);
-  check_experiment(plan, workbench);
-  for (const auto& run : plan.runs)
-    for (const auto& warning : workbench.pair(run.values).warnings)
-      print("{}: warning: {}\n", run.name, warning);
+  for (const auto& [run, warning] : check_experiment(plan, workbench))
+    print("{}: warning: {}\n", run, warning);
   print("{}: good; it makes {} run{}:", options.file, plan.runs.size(), plan.runs.size() == 1 ? "" : "s");
   for (const auto& run : plan.runs) print(" {}", run.name);
   print("\n");

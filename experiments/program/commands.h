@@ -22,6 +22,7 @@ ConfigSource config_source(const ExperimentOptions& options);
 // The sub-commands. Each prints its result on stdout and throws an Error when there is none.
 
 void run_command(const ExperimentOptions& options);
+void track_command(const ExperimentOptions& options);
 void check_command(const ExperimentOptions& options);
 void compare_command(const ExperimentOptions& options);
 void components_command(const std::string& kind, const std::string& name, bool as_json);

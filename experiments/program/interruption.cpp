@@ -3,6 +3,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <thread>
@@ -18,6 +19,9 @@ bool is_ignored(int signal) {
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+std::atomic<int> patient = 0;  // FinishOnInterruption objects that live
+std::atomic<bool> is_asked_to_finish = false;
+
 [[noreturn]] void end_after(int signal) {
   const auto kept = ResultFolder::abandon_all();
   write_message(isatty(STDERR_FILENO) != 0 ? "\r\033[Kinterrupted\n" : "interrupted\n");
@@ -27,6 +31,10 @@ bool is_ignored(int signal) {
 }
 
 }  // namespace
+
+FinishOnInterruption::FinishOnInterruption() { ++patient; }
+FinishOnInterruption::~FinishOnInterruption() { --patient; }
+bool FinishOnInterruption::is_asked() const { return is_asked_to_finish; }  // NOLINT(*-to-static)
 
 void answer_interruptions() {
   sigset_t signals;
@@ -38,7 +46,10 @@ void answer_interruptions() {
   std::atexit([] { ResultFolder::abandon_all(); });  // for libraries that end the program on their own
   std::thread([signals] {
     int signal = 0;
-    if (sigwait(&signals, &signal) == 0) end_after(signal);
+    while (sigwait(&signals, &signal) == 0) {
+      if (patient == 0 || is_asked_to_finish.exchange(true)) end_after(signal);
+      write_message("\nfinishing with what there is; interrupt once more to end at once\n");
+    }
   }).detach();
 }
 

@@ -9,4 +9,14 @@ namespace pliant {
 /// started: they must not get these signals.
 void answer_interruptions();
 
+/// While one lives, the first such signal asks for an end and only the next one ends the program.
+class FinishOnInterruption {
+ public:
+  FinishOnInterruption();
+  FinishOnInterruption(const FinishOnInterruption&) = delete;
+  FinishOnInterruption& operator=(const FinishOnInterruption&) = delete;
+  ~FinishOnInterruption();
+  bool is_asked() const;
+};
+
 }  // namespace pliant

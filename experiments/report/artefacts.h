@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -78,6 +79,7 @@ struct RunSummary {
   Table summary;                   ///< its rows in the table over all runs; without a title, the experiment's
   std::vector<std::string> notes;  ///< how it ended, and warnings: a line each
   std::string failure = {};        ///< why it is not the result that was asked for; empty: it is
+  bool is_short_of_data = false;   ///< that is because its data ended or broke, and for no other reason
 };
 
 /// All that a run came to, whatever task it was: what reports show.
@@ -88,13 +90,15 @@ struct RunArtefacts : RunSummary {
   std::vector<Picture> pictures = {};
   std::vector<NamedSurface> surfaces = {};
   std::optional<View> view = {};
+  std::vector<std::filesystem::path> files = {};  ///< what the task itself wrote into the run's folder
 };
 
 /// The names of the artefacts that become files of their own.
 struct ArtefactNames {
   std::vector<std::string> pictures;
   std::vector<std::string> surfaces;
-  bool view = false;  ///< whether there is one
+  bool view = false;               ///< whether there is one
+  std::vector<std::string> files;  ///< that the task itself writes
 };
 
 }  // namespace pliant

@@ -13,6 +13,7 @@
 #include "framework/core/nearest.h"
 #include "framework/registration/handle.h"
 #include "framework/tracking/method.h"
+#include "framework/tracking/tracking_method.h"
 
 namespace pliant {
 namespace {
@@ -110,6 +111,7 @@ ParameterTable experiment_table() {
                      .optional()
                      .at_least(1)
                      .doc("bend the source by these handles instead of registering it to the target"));
+  for (auto& row : tracking_rows()) rows.push_back(std::move(row));
   for (auto& row : method_rows()) rows.push_back(std::move(row));
   rows.push_back(components("reports", Report::kind)
                      .optional()

@@ -65,7 +65,7 @@ std::optional<Stored> read_run(const fs::path& folder, const std::string& key) {
       files.push_back(name);
     }
     return Stored{{folder.filename().string(), json.at("run"), table_of(json.at("summary")), json.at("notes"),
-                   json.at("failure")},
+                   json.at("failure"), json.at("is_short_of_data")},
                   files};
   } catch (const DataError&) {                // not there, or torn
   } catch (const ordered_json::exception&) {  // of another kind
@@ -104,6 +104,7 @@ void RunStore::write(const RunSummary& run, const std::string& key, const Files&
                                                          {"summary", table_json(run.summary)},
                                                          {"notes", run.notes},
                                                          {"failure", run.failure},
+                                                         {"is_short_of_data", run.is_short_of_data},
                                                          {"files", marks}});
 }
 

@@ -46,7 +46,7 @@ class Runs {
                             options_.is_one_of_many || is_incomplete(folder) ? folder : "");
     if (plan_.has_variants()) result.keep_only(take(finished));
     for (const auto& run : plan_.runs) {
-      make_or_take(run, result.unfinished(), finished);
+      make_or_take(run, result, finished);
       if (plan_.has_variants() && !made_.runs.empty()) result.keep();
     }
     if (made_.runs.empty() && options_.is_one_of_many) return std::move(made_);
@@ -91,7 +91,7 @@ class Runs {
     return folders;
   }
 
-  void make_or_take(const ExperimentRun& run, const fs::path& folder, const RunStore& finished) {
+  void make_or_take(const ExperimentRun& run, ResultFolder& result, const RunStore& finished) {
     const auto taken = taken_.find(run.name);
     if (taken != taken_.end()) {
       under_name(progress_, run.name)({"", 1, taken_message});
@@ -102,14 +102,18 @@ class Runs {
     const auto failed = [&](const Error& error) {
       made_.failed.push_back({run.name, error.what(), std::current_exception()});
     };
+    const fs::path own = folder_of(run, result.unfinished());
     std::optional<RunArtefacts> made;
     try {
-      made = task_.make(run, workbench_, under_name(progress_, run.name), repeats(run));
+      made = task_.make(
+          run, workbench_,
+          {under_name(progress_, run.name), repeats(run), own, [&] { result.keep(); }, options_.is_ended});
     } catch (const Error& error) {
+      remove(run, finished);
       return failed(error);
     }
     try {
-      write_run(run, *made, folder, finished);
+      write_run(run, *made, own, finished);
       made_.runs.push_back(std::move(*made));
     } catch (const NumericalError& error) {
       remove(run, finished);
@@ -124,15 +128,22 @@ class Runs {
     if (plan_.has_variants()) finished.remove(run.name);
   }
 
-  void write_run(const ExperimentRun& run, const RunArtefacts& made, const fs::path& folder,
-                 const RunStore& finished) const {
-    const fs::path own = plan_.has_variants() ? folder / run.name : folder;
+  /// Where the results of a run go; it exists.
+  fs::path folder_of(const ExperimentRun& run, const fs::path& folder) const {
+    fs::path own = plan_.has_variants() ? folder / run.name : folder;
     std::error_code error;
     fs::create_directories(own, error);
     if (error) throw DataError(fmt::format("{}: cannot be made: {}", own.string(), error.message()));
-    const RunStore::Files files = task_.is_reported()
-                                      ? write_reports(run, made, own, under_name(progress_, run.name))
-                                      : RunStore::Files{};
+    return own;
+  }
+
+  void write_run(const ExperimentRun& run, const RunArtefacts& made, const fs::path& own,
+                 const RunStore& finished) const {
+    RunStore::Files files = made.files;
+    if (task_.is_reported()) {
+      const auto written = write_reports(run, made, own, under_name(progress_, run.name));
+      files.insert(files.end(), written.begin(), written.end());
+    }
     if (plan_.has_variants()) finished.write(made, key(run), files);
   }
 
@@ -174,6 +185,7 @@ ResultFolder::Files result_files(const Task& task, const ExperimentPlan& plan, c
   for (const auto& run : plan.runs) {
     const fs::path folder = plan.has_variants() ? run.name : "";
     if (plan.has_variants()) files.push_back(folder / "run.json");
+    for (const auto& file : task.names().files) files.push_back(folder / file);
     if (!task.is_reported()) continue;
     for (const auto& [name, section] : run.values.sections("reports"))
       for (const auto& file : registry.make<Report>(section)->files(task.names()))
@@ -182,15 +194,18 @@ ResultFolder::Files result_files(const Task& task, const ExperimentPlan& plan, c
   return files;
 }
 
-void check_experiment(const ExperimentPlan& plan, Workbench& workbench) {
+std::vector<std::pair<std::string, std::string>> check_experiment(const ExperimentPlan& plan,
+                                                                  Workbench& workbench) {
+  std::vector<std::pair<std::string, std::string>> warnings;
   const auto task = make_task(plan.experiment.values);
   for (const auto& run : plan.runs) {
     for (const auto& [name, section] : run.values.sections("reports"))
       workbench.registry().make<Report>(section);
     for (const auto& [name, section] : run.values.sections("solvers"))
       workbench.registry().make<Solver>(section);
-    task->check(run, workbench);
+    for (const auto& warning : task->check(run, workbench)) warnings.emplace_back(run.name, warning);
   }
+  return warnings;
 }
 
 ExperimentResult run_experiment(const Task& task, const ExperimentPlan& plan, const fs::path& folder,
@@ -202,7 +217,8 @@ ExperimentResult run_experiment(const Task& task, const ExperimentPlan& plan, co
 void check_ends(const ExperimentResult& result) {
   if (!result.failed.empty()) std::rethrow_exception(result.failed.front().error);
   for (const auto& run : result.runs)
-    if (!run.failure.empty()) throw NumericalError(run.failure);
+    if (!run.failure.empty() && run.is_short_of_data) throw DataError(run.failure);
+  if (!run.failure.empty()) throw NumericalError(run.failure);
 }
 
 std::vector<Table> run_tables(const Task& task, const ExperimentPlan& plan, const ExperimentResult& result,

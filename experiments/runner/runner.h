@@ -2,7 +2,9 @@
 
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/report/table.h"
@@ -30,8 +32,9 @@ struct ExperimentResult {
 ResultFolder::Files result_files(const Task& task, const ExperimentPlan& plan, const Registry& registry);
 
 /// Tries everything of an experiment short of the work: makes every component, opens the device, loads the
-/// data. Throws what running it would.
-void check_experiment(const ExperimentPlan& plan, Workbench& workbench);
+/// data. Throws what running it would. Gives what is odd about the data of each run, under its name.
+std::vector<std::pair<std::string, std::string>> check_experiment(const ExperimentPlan& plan,
+                                                                  Workbench& workbench);
 
 /// How an experiment is run.
 struct RunOptions {
@@ -39,6 +42,7 @@ struct RunOptions {
   /// One of many that are made together: runs are also taken from a result that is whole, and where all of
   /// them fail only the result says so, and nothing is written.
   bool is_one_of_many = false;
+  std::function<bool()> is_ended = [] { return false; };  ///< see Making
 };
 
 /// What the progress of a run says that is not made but taken.

@@ -179,22 +179,21 @@ class CompareTask : public Task {
   bool is_reported() const override { return false; }
   ArtefactNames names() const override { return {}; }
 
-  void check(const ExperimentRun& run, Workbench& workbench) const override {
+  std::vector<std::string> check(const ExperimentRun& run, Workbench& workbench) const override {
     if (run.values.sections("solvers").empty())
       throw ConfigError(run.place +
                         ": there is nothing to compare; expected solvers under the key 'solvers'");
-    make_task(run.values)->check(run, workbench);
+    return make_task(run.values)->check(run, workbench);
   }
 
-  RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const ProgressSink& progress,
-                    int) const override {
+  RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const Making& making) const override {
     check(run, workbench);
     const Method method = make_method(run, workbench.registry());
     const auto frozen = first_problem(run, method, workbench);
     const Parameters& settings = run.values.section("compare");
     const Bench bench{*frozen, method.length_unit, workbench.device(run.values),
                       static_cast<int>(settings.integer("repetitions")), settings.real("max_seconds")};
-    const auto trials = try_solvers(run, bench, workbench.registry(), progress);
+    const auto trials = try_solvers(run, bench, workbench.registry(), making.progress);
     return {{run.name, run_json(run.name, *frozen, trials), trials_table(run.name, *frozen, trials), {}}};
   }
 };

@@ -118,23 +118,23 @@ class EditTask : public Task {
     return {{"depth_source", "depth_registered", "motion", "graph"}, {"source", "registered"}};
   }
 
-  void check(const ExperimentRun& run, Workbench& workbench) const override {
+  std::vector<std::string> check(const ExperimentRun& run, Workbench& workbench) const override {
     make_method(run, workbench.registry());
     const FramePair& pair = workbench.pair(run.values);
     workbench.device(run.values);
     const Surface source = told_with_place(run.place, [&] { return source_surface(pair); });
     for (const auto& [name, handle] : make_handles(run, workbench.registry())) take_hold(handle, source);
+    return pair.warnings;
   }
 
-  RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const ProgressSink&,
-                    int repeats) const override {
+  RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const Making& making) const override {
     const FramePair& pair = workbench.pair(run.values);
     const Method method = make_method(run, workbench.registry());
     const NamedHandles handles = make_handles(run, workbench.registry());
     Device& device = workbench.device(run.values);
     Timing timing;
     const EditResult result = told_with_place(run.place, pair, [&] {
-      return make_timed(device, repeats, timing,
+      return make_timed(device, making.repeats, timing,
                         [&](const std::string&) { return edit_surface(pair, handles, method, device); });
     });
     RunArtefacts made{{run.name, run_json(run.name, result, timing), summary(run.name, result, timing),

@@ -39,14 +39,13 @@ class RegisterTask : public Task {
             true};
   }
 
-  void check(const ExperimentRun& run, Workbench& workbench) const override {
+  std::vector<std::string> check(const ExperimentRun& run, Workbench& workbench) const override {
     make_method(run, workbench.registry());
-    workbench.pair(run.values);
     workbench.device(run.values);
+    return workbench.pair(run.values).warnings;
   }
 
-  RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const ProgressSink& progress,
-                    int repeats) const override {
+  RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const Making& making) const override {
     const FramePair& pair = workbench.pair(run.values);
     const auto method_of_run = std::make_shared<const Method>(make_method(run, workbench.registry()));
     const Method& method = *method_of_run;
@@ -55,17 +54,18 @@ class RegisterTask : public Task {
     Timing timing;
     GraphGrowth growth;
     RegistrationResult result = told_with_place(run.place, pair, [&] {
-      return make_timed(device, repeats, timing, [&](const std::string& label) {
+      return make_timed(device, making.repeats, timing, [&](const std::string& label) {
         return register_pair(pair, method, device, seed,
-                             watching(progress, label, pair.name, method, growth));
+                             watching(making.progress, label, pair.name, method, growth));
       });
     });
     const SurfaceImage target = make_surface_image(device, pair.target, pair.camera);
     const Evaluation evaluation(pair, workbench.truth(run.values), result.source, target);
-    const Measured measured = measure(evaluation, result, progress);
+    const Measured measured = measure(evaluation, result, making.progress);
     RunArtefacts made = registration_artefacts(run, pair, target, result, measured, growth, timing);
-    made.view.emplace([&pair, &truth = workbench.truth(run.values), &device, method_of_run, seed, progress,
-                       target, result = std::move(result), picture = picture_of_errors(made)] {
+    made.view.emplace([&pair, &truth = workbench.truth(run.values), &device, method_of_run, seed,
+                       progress = making.progress, target, result = std::move(result),
+                       picture = picture_of_errors(made)] {
       progress({"", 1, "registering once more, watched"});
       return gather_view({pair, truth, *method_of_run, device, seed, result, target, picture});
     });

@@ -27,6 +27,7 @@ void check_energies(const Method& method, const std::string& place) {
 }  // namespace
 
 std::unique_ptr<Task> make_task(const Parameters& experiment) {
+  if (experiment.has("model")) return make_track_task();
   return experiment.sections("handles").empty() ? make_register_task() : make_edit_task();
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "experiments/report/artefacts.h"
 #include "experiments/tasks/workbench.h"
@@ -19,6 +22,16 @@ struct ExperimentRun {
   std::string place;  ///< where an error of the run came from: the file or text, and its name if not alone
 };
 
+/// How a run is made.
+struct Making {
+  ProgressSink progress;  ///< is there, and tells under the run's name
+  /// Above 0 the work is done once untimed, then so many times, and the median time is told.
+  int repeats = 0;
+  std::filesystem::path folder = {};   ///< where the run's results are to be; it exists
+  std::function<void()> keep = [] {};  ///< from then on what is in `folder` outlasts whatever ends this
+  std::function<bool()> is_ended = [] { return false; };  ///< whether to end early, with what there is
+};
+
 /// Turns a run of an experiment into artefacts.
 class Task {
  public:
@@ -33,20 +46,24 @@ class Task {
   /// Of all artefacts that make() may give.
   virtual ArtefactNames names() const = 0;
 
-  /// Tries everything short of the work. Throws what make() would.
-  virtual void check(const ExperimentRun& run, Workbench& workbench) const = 0;
-  /// With `repeats` above 0 the work is done once untimed, then so many times, and the median time is told.
-  /// `progress` is there, and tells under the run's name. Throws an Error that tells the place of the run or
-  /// of what is wrong.
-  virtual RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const ProgressSink& progress,
-                            int repeats) const = 0;
+  /// Whether its work goes on until there is no more data, and an interruption means that there is enough.
+  virtual bool can_end_early() const { return false; }
+
+  /// Tries everything short of the work. Throws what make() would. Gives what is odd about the data, a line
+  /// each.
+  virtual std::vector<std::string> check(const ExperimentRun& run, Workbench& workbench) const = 0;
+  /// Throws an Error that tells the place of the run or of what is wrong.
+  virtual RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const Making& making) const = 0;
 };
 
-/// What `pliant run` does with an experiment: `register`, or `edit` where it has handles.
+/// What `pliant run` does with an experiment: `track` where it has a model, `edit` where it has handles, else
+/// `register`.
 std::unique_ptr<Task> make_task(const Parameters& experiment);
 
 std::unique_ptr<Task> make_register_task();
 std::unique_ptr<Task> make_edit_task();
+/// Tracks the frames of the data one after the other. Writes what it finds of each while it goes on.
+std::unique_ptr<Task> make_track_task();
 /// Freezes the first problem of each run and lets every solver of `solvers` minimise an identical one from
 /// the same start. A run fails with ConfigError when it lists no solvers, with NumericalError when one of
 /// them finds no finite answer.

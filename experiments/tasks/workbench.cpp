@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <type_traits>
 
-#include "experiments/datasets/frame_source.h"
-
 namespace pliant {
 
 ParameterTable kernels_table() {
@@ -98,14 +96,18 @@ Device& Workbench::device(const Parameters& experiment) {
   return *device;
 }
 
+std::unique_ptr<DataStream> Workbench::open(const Parameters& experiment) {
+  return registry_.make<FrameSource>(experiment.section("data"))
+      ->open(device(experiment), static_cast<std::uint64_t>(experiment.integer("seed")));
+}
+
 const Workbench::Data& Workbench::data(const Parameters& experiment) {
   const Parameters& section = experiment.section("data");
   const auto seed = experiment.integer("seed");
   const std::string key = fmt::format("{} {} {}", device_key(experiment), seed, fingerprint(section));
   const auto known = data_.find(key);
   if (known != data_.end()) return known->second;
-  const auto stream =
-      registry_.make<FrameSource>(section)->open(device(experiment), static_cast<std::uint64_t>(seed));
+  const auto stream = open(experiment);
   Data data{read_pair(*stream), stream->truth(2)};
   if (data.truth) check(*data.truth, data.pair);
   if (data_.size() >= most_pairs) data_.clear();

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "experiments/datasets/frame_source.h"
 #include "framework/core/error.h"
 #include "framework/core/registry.h"
 #include "framework/device/device.h"
@@ -33,6 +34,9 @@ class Workbench {
   const Registry& registry() const { return registry_; }
   /// Throws DeviceError when there is none that the experiment would take.
   Device& device(const Parameters& experiment);
+  /// The frames of the experiment's data, made on its device. Throws DataError as FrameSource::open does,
+  /// DeviceError as above.
+  std::unique_ptr<DataStream> open(const Parameters& experiment);
   /// The first two frames of the experiment's data, made on its device; valid until another is asked for.
   /// Throws DataError when they cannot be used, DeviceError as above.
   const FramePair& pair(const Parameters& experiment) { return data(experiment).pair; }

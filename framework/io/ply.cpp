@@ -2,30 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cstdint>
 #include <stdexcept>
 
 #include "framework/io/file.h"
+#include "framework/io/little_endian.h"
 
 namespace pliant {
 namespace {
 
 constexpr Rgb neutral_grey{180, 180, 180};
-
-/// Little-endian whatever the machine.
-void append(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
-  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-void append(std::vector<std::uint8_t>& bytes, std::int32_t value) {
-  append(bytes, static_cast<std::uint32_t>(value));
-}
-void append(std::vector<std::uint8_t>& bytes, float value) {
-  append(bytes, std::bit_cast<std::uint32_t>(value));
-}
-void append(std::vector<std::uint8_t>& bytes, const Eigen::Vector3f& vector) {
-  for (int i = 0; i < 3; ++i) append(bytes, vector[i]);
-}
 
 std::string header(const PlySurface& ply) {
   return fmt::format(

@@ -60,7 +60,10 @@ std::vector<Parameter> nonrigid_rows() {
           .doc("Nodes that move a point: k of [Eq. 4.1]"),
       component("sampler", "sampler", "uniform").doc("Which points are constrained"),
       component("correspondence", "correspondence", "projective").doc("Where constrained points should go"),
-      components("energies", "energy").doc("Terms of E_tot [Eq. 4.6]"),
+      components("energies", "energy")
+          .optional()
+          .by_default({"rotation", "regularization", "constraint"})
+          .doc("Terms of E_tot [Eq. 4.6]"),
       real("length_unit", method.length_unit)
           .unit("mm")
           .above(0)

@@ -59,8 +59,7 @@ class RegistrationViewTest : public ExperimentFiles {
   /// What the run of an experiment comes to, and its view.
   void make(const std::string& text) {
     plan_.emplace(plan(text));
-    made_.emplace(make_register_task()->make(
-        plan_->runs.at(0), workbench_, [](const Progress&) {}, 0));
+    made_.emplace(make_register_task()->make(plan_->runs.at(0), workbench_, {[](const Progress&) {}}));
   }
   const ViewData& view() const { return made_->view->data(); }
 

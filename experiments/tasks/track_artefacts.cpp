@@ -1,0 +1,88 @@
+#include "experiments/tasks/track_artefacts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace pliant {
+namespace {
+
+using nlohmann::ordered_json;
+using FrameFigures = TrackSummary::FrameFigures;
+
+ordered_json run_json(const ExperimentRun& run, const TrackSummary& summary, const StreamEnd& end) {
+  ordered_json json = {{"name", run.name},
+                       {"frames", summary.frames.size()},
+                       {"waiting", summary.count(FrameState::waiting)},
+                       {"tracked", summary.count(FrameState::tracked)},
+                       {"lost", summary.count(FrameState::lost)},
+                       {"mean_error", summary.mean_error()},
+                       {"warnings", end.warnings},
+                       {"broken_by", end.error},
+                       {"frame_ms", summary.mean_ms()},
+                       {"time_ms", summary.time_ms}};
+  if (const auto rmse = summary.rmse())
+    json["truth"] = {{"ate_translation", rmse->translation}, {"ate_rotation", rmse->rotation}};
+  return json;
+}
+
+Table summary_table(const std::string& name, const TrackSummary& summary) {
+  const auto rmse = summary.rmse();
+  return {
+      "",
+      {"run", "frames", "tracked", "lost", "mean error mm", "ATE mm", "ATE degrees", "frame ms", "frames/s"},
+      {{{name, std::to_string(summary.frames.size()), std::to_string(summary.count(FrameState::tracked)),
+         std::to_string(summary.count(FrameState::lost)), fmt::format("{:.2f}", summary.mean_error()),
+         rmse ? fmt::format("{:.2f}", rmse->translation) : "unknown",
+         rmse ? fmt::format("{:.3f}", rmse->rotation) : "unknown", fmt::format("{:.1f}", summary.mean_ms()),
+         fmt::format("{:.1f}", 1e3 / summary.mean_ms())}}}};
+}
+
+Table stages_table(const TrackSummary& summary) {
+  Table table{"Time a frame", {}, {}};
+  for (const auto& [stage, time] : summary.time_ms)
+    table.rows.push_back(
+        {{stage, fmt::format("{:.2f} ms", time / static_cast<double>(summary.frames.size()))}});
+  return table;
+}
+
+/// A number of each frame; 0 where there is none.
+Series series_of(const TrackSummary& summary, const std::string& title, const std::string& value,
+                 float FrameFigures::*member) {
+  Series series{title, "frame", value, {}};
+  for (const FrameFigures& frame : summary.frames)
+    series.values.push_back(std::isnan(frame.*member) ? 0 : static_cast<double>(frame.*member));
+  return series;
+}
+
+std::vector<std::string> notes_of(const TrackSummary& summary, const StreamEnd& end) {
+  std::vector<std::string> notes{fmt::format("{} of {} frames tracked, {} lost",
+                                             summary.count(FrameState::tracked), summary.frames.size(),
+                                             summary.count(FrameState::lost))};
+  if (!end.error.empty()) notes.push_back("the frames ended early: " + end.error);
+  for (const auto& warning : end.warnings) notes.push_back("warning: " + warning);
+  return notes;
+}
+
+}  // namespace
+
+RunArtefacts track_artefacts(const ExperimentRun& run, const TrackSummary& summary, const StreamEnd& end) {
+  RunArtefacts made{
+      {run.name, run_json(run, summary, end), summary_table(run.name, summary), notes_of(summary, end)}};
+  if (!end.error.empty()) {
+    made.failure = run.place + ": " + end.error;
+    made.is_short_of_data = true;
+  }
+  made.lead =
+      fmt::format("{} frames, tracked against a model that they are fused into", summary.frames.size());
+  made.tables = {stages_table(summary)};
+  made.series = {series_of(summary, "Error of rigid tracking", "mm", &FrameFigures::mean_error),
+                 series_of(summary, "Points of the model with a match", "share", &FrameFigures::inlier_share),
+                 series_of(summary, "Time", "ms", &FrameFigures::total_ms)};
+  if (summary.rmse())
+    made.series.push_back(
+        series_of(summary, "Distance from the true position", "mm", &FrameFigures::translation_error));
+  return made;
+}
+
+}  // namespace pliant

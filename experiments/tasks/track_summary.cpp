@@ -1,0 +1,56 @@
+#include "experiments/tasks/track_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pliant {
+namespace {
+
+constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
+
+void TrackSummary::add(const FrameRecord& record, const std::optional<PoseError>& error) {
+  const PoseEstimate& pose = record.pose;
+  const double share = pose.samples > 0 ? static_cast<double>(pose.inliers) / pose.samples : 0;
+  frames.push_back({record.state, static_cast<float>(pose.mean_error), static_cast<float>(share),
+                    static_cast<float>(record.total_ms),
+                    error ? static_cast<float>(error->translation) : unknown,
+                    error ? static_cast<float>(error->rotation) : unknown});
+  for (const auto& [stage, time] : record.time_ms) time_ms[stage] += time;
+}
+
+int TrackSummary::count(FrameState state) const {
+  return static_cast<int>(std::count_if(frames.begin(), frames.end(),
+                                        [&](const FrameFigures& frame) { return frame.state == state; }));
+}
+
+double TrackSummary::mean_error() const {
+  double sum = 0;
+  for (const FrameFigures& frame : frames)
+    if (frame.state == FrameState::tracked) sum += static_cast<double>(frame.mean_error);
+  return sum / std::max(count(FrameState::tracked), 1);
+}
+
+double TrackSummary::mean_ms() const {
+  if (frames.empty()) return 0;
+  double sum = 0;
+  for (std::size_t i = 1; i < frames.size(); ++i) sum += static_cast<double>(frames[i].total_ms);
+  return frames.size() > 1 ? sum / static_cast<double>(frames.size() - 1) : frames[0].total_ms;
+}
+
+std::optional<PoseError> TrackSummary::rmse() const {
+  PoseError squares{0, 0};
+  int known = 0;
+  for (const FrameFigures& frame : frames) {
+    if (frame.state != FrameState::tracked || std::isnan(frame.translation_error)) continue;
+    squares.translation += std::pow(static_cast<double>(frame.translation_error), 2);
+    squares.rotation += std::pow(static_cast<double>(frame.rotation_error), 2);
+    ++known;
+  }
+  if (known == 0) return {};
+  return PoseError{std::sqrt(squares.translation / known), std::sqrt(squares.rotation / known)};
+}
+
+}  // namespace pliant

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/tasks/pose_truth.h"
+#include "framework/tracking/frame_record.h"
+
+namespace pliant {
+
+/// What is kept of the frames of a run: little, so that long recordings have room.
+struct TrackSummary {
+  struct FrameFigures {
+    FrameState state;
+    float mean_error;    ///< mm; see PoseEstimate
+    float inlier_share;  ///< of the model's points that were matched
+    float total_ms;
+    float translation_error;  ///< mm; NaN where the true pose is not known
+    float rotation_error;     ///< degrees, likewise
+  };
+  std::vector<FrameFigures> frames;
+  StageTimes time_ms;  ///< of all frames together
+
+  void add(const FrameRecord& record, const std::optional<PoseError>& error);
+
+  int count(FrameState state) const;
+  double mean_error() const;  ///< mm, over the frames that were tracked; 0 where none was
+  double mean_ms() const;     ///< of a frame, all but the first, which builds kernels
+  /// Root mean squares over the frames whose pose was found and is known; none where there is no such.
+  std::optional<PoseError> rmse() const;
+};
+
+}  // namespace pliant

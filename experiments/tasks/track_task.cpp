@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "experiments/tasks/pose_truth.h"
+#include "experiments/tasks/task.h"
+#include "experiments/tasks/track_artefacts.h"
+#include "experiments/tasks/track_log.h"
+#include "framework/io/mesh_writer.h"
+#include "framework/tracking/tracker.h"
+
+namespace pliant {
+namespace {
+
+/// Tells of a frame: how far the stream has come is not known.
+void tell(const ProgressSink& progress, const FrameRecord& record) {
+  progress({"", 0,
+            fmt::format("frame {}: {}, {:.1f} ms", record.number, to_string(record.state), record.total_ms)});
+}
+
+class TrackTask : public Task {
+ public:
+  bool can_end_early() const override { return true; }
+
+  ArtefactNames names() const override {
+    ArtefactNames names;
+    names.files = TrackLog::files();
+    names.files.insert(names.files.end(), {model_ply, model_glb});
+    return names;
+  }
+
+  std::vector<std::string> check(const ExperimentRun& run, Workbench& workbench) const override {
+    make_tracking_method(run.values, workbench.registry());
+    const auto stream = workbench.open(run.values);
+    CheckedStream(*stream).next();
+    return stream->warnings();
+  }
+
+  RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const Making& making) const override {
+    return told_with_place(run.place, [&] {
+      const TrackingMethod method = make_tracking_method(run.values, workbench.registry());
+      const auto stream = workbench.open(run.values);
+      Tracker tracker(method, stream->rig(), workbench.device(run.values));
+      TrackSummary summary;
+      const StreamEnd end = track_all(*stream, tracker, making, summary);
+      RunArtefacts made = track_artefacts(run, summary, end);
+      for (const auto& name : TrackLog::files()) made.files.push_back(making.folder / name);
+      if (tracker.has_model()) write_model(tracker.model().mesh(), making.folder, made.files);
+      return made;
+    });
+  }
+
+ private:
+  static constexpr const char* model_ply = "model.ply";
+  static constexpr const char* model_glb = "model.glb";
+
+  /// Until the stream ends, breaks after its first frame, or is to be ended.
+  static StreamEnd track_all(DataStream& stream, Tracker& tracker, const Making& making,
+                             TrackSummary& summary) {
+    CheckedStream frames(stream);
+    PoseTruth truth(stream);
+    std::optional<TrackLog> log;
+    try {
+      while (!making.is_ended()) {
+        const auto frame = frames.next();
+        if (!frame) break;
+        const FrameRecord record = tracker.track(*frame);
+        if (!log) log.emplace(making.folder);
+        const auto error = truth.error_of(record);
+        log->add(record, error);
+        making.keep();
+        summary.add(record, error);
+        tell(making.progress, record);
+      }
+    } catch (const DataError& error) {
+      if (summary.frames.empty()) throw;
+      return {stream.warnings(), error.what()};
+    }
+    return {stream.warnings()};
+  }
+
+  static void write_model(const Mesh& mesh, const std::filesystem::path& folder,
+                          std::vector<std::filesystem::path>& files) {
+    files.push_back(folder / model_ply);
+    write_mesh_ply(files.back().string(), mesh);
+    files.push_back(folder / model_glb);
+    write_glb(files.back().string(), mesh);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Task> make_track_task() { return std::make_unique<TrackTask>(); }
+
+}  // namespace pliant

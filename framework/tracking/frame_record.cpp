@@ -1,0 +1,19 @@
+#include "framework/tracking/frame_record.h"
+
+namespace pliant {
+
+std::string to_string(FrameState state) {
+  switch (state) {
+    case FrameState::waiting:
+      return "waiting";
+    case FrameState::started:
+      return "started";
+    case FrameState::tracked:
+      return "tracked";
+    case FrameState::lost:
+      return "lost";
+  }
+  return "";
+}
+
+}  // namespace pliant

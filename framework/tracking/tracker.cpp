@@ -1,0 +1,98 @@
+#include "framework/tracking/tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/core/stopwatch.h"
+
+namespace pliant {
+namespace {
+
+/// A copy without the depths beyond `farthest` mm; 0: with all.
+Frame cut_frame(const Frame& frame, double farthest) {
+  Frame cut = frame;
+  if (farthest <= 0) return cut;
+  float* depth = cut.depth.data();
+  std::replace_if(
+      depth, depth + cut.depth.size(), [&](float z) { return z > farthest; }, 0.0F);
+  return cut;
+}
+
+bool shows_depth(const Frame& frame, const PixelWindow& region) {
+  for (int v = region.top; v < region.top + region.height; ++v)
+    for (int u = region.left; u < region.left + region.width; ++u)
+      if (is_depth(frame.depth(u, v)) && (frame.mask.empty() || frame.mask(u, v) != 0)) return true;
+  return false;
+}
+
+}  // namespace
+
+Tracker::Tracker(const TrackingMethod& method, const Rig& rig, Device& device)
+    : method_(method),
+      rig_(rig),
+      device_(device),
+      preprocessor_(device, rig.depth, *method.filter, *method.normals, method.depth_cut),
+      pose_(method.pose->make(device)) {
+  check(rig, "the rig");
+}
+
+FrameRecord Tracker::track(const Frame& frame) {
+  const Stopwatch watch;
+  FrameRecord record;
+  record.number = ++count_;
+  record.time = frame.time;
+  check(frame, rig_, fmt::format("frame {}", record.number));
+  device_.take_stage_times();  // of whatever came before
+  if (has_model() || find_object(frame, record)) {
+    timed(record.time_ms, "upload", [&] { return preprocessor_.process(frame); });
+    if (has_model())
+      follow(record);
+    else
+      begin_model(record);
+  }
+  device_.finish();
+  for (const auto& [stage, time] : device_.take_stage_times()) record.time_ms[stage] += time;
+  record.camera_from_model = camera_from_model_;
+  record.total_ms = watch.milliseconds();
+  return record;
+}
+
+/// Whether the frame shows what is to be modelled; its region is the one from now on.
+bool Tracker::find_object(const Frame& frame, FrameRecord& record) {
+  const Frame cut = cut_frame(frame, method_.depth_cut);
+  const auto region =
+      timed(record.time_ms, "segmentation", [&] { return method_.segmentation->find(cut, rig_); });
+  if (!region)
+    record.reason = "the object is not found";
+  else if (!shows_depth(cut, *region))
+    record.reason = "there is no depth";
+  else
+    preprocessor_.set_region(*region);
+  return record.reason.empty();
+}
+
+void Tracker::begin_model(FrameRecord& record) {
+  model_ = method_.model->make(device_, seen());
+  record.state = FrameState::started;
+  fuse();
+}
+
+/// Where the model is now: from where it was, by what of it was seen from there [3.3].
+void Tracker::follow(FrameRecord& record) {
+  record.pose = timed(record.time_ms, "pose",
+                      [&] { return pose_->estimate(*model_view_, seen(), Eigen::Isometry3d::Identity()); });
+  record.state = record.pose.failed ? FrameState::lost : FrameState::tracked;
+  record.reason = record.pose.reason;
+  if (record.pose.failed) return;
+  camera_from_model_ = record.pose.target_from_source * camera_from_model_;
+  fuse();
+}
+
+/// Fuses the frame as it was seen, unfiltered, into the model, and looks at that from its camera [3.2].
+void Tracker::fuse() {
+  model_->integrate(preprocessor_.depth(), rig_.depth, camera_from_model_);
+  model_view_ = &model_->raycast(rig_.depth, seen().window, camera_from_model_);
+}
+
+}  // namespace pliant

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "framework/device/device.h"
+#include "framework/geometry/frame.h"
+#include "framework/geometry/rig.h"
+#include "framework/imaging/preprocessor.h"
+#include "framework/tracking/frame_record.h"
+#include "framework/tracking/tracking_method.h"
+
+namespace pliant {
+
+/// Tracks what a rig sees, frame by frame, against a model that the frames are fused into [thesis chapter 3,
+/// Figure 3.1]. The same frames, method and device give the same bits.
+///
+/// The model is begun with the first frame that shows the object; the region where the segmentation finds it
+/// stays as it is from then on. Where the pose of a frame is not found, the next one is looked for from the
+/// last one that was. A frame without any depth in the region is lost.
+class Tracker {
+ public:
+  /// Method and device must outlive this. Throws DataError as `check` of the rig does.
+  Tracker(const TrackingMethod& method, const Rig& rig, Device& device);
+
+  /// The next frame, which fits the rig. Throws DataError when it does not, or when the model cannot be
+  /// fitted to what it shows. Frames after one that threw may still be tracked.
+  FrameRecord track(const Frame& frame);
+
+  /// Whether a frame has begun the model. What follows asks for one.
+  bool has_model() const { return model_ != nullptr; }
+  /// The surface of the frame that was tracked last, filtered, in the frame of its camera.
+  const SurfaceMap& seen() const { return preprocessor_.surface(); }
+  /// What that camera would see of the model at the last pose that was found.
+  const SurfaceMap& model_view() const { return *model_view_; }
+  const ReferenceModel& model() const { return *model_; }
+
+ private:
+  bool find_object(const Frame& frame, FrameRecord& record);
+  void begin_model(FrameRecord& record);
+  void follow(FrameRecord& record);
+  void fuse();
+
+  const TrackingMethod& method_;
+  Rig rig_;
+  Device& device_;
+  Preprocessor preprocessor_;
+  std::unique_ptr<PoseEstimator> pose_;
+  std::unique_ptr<ReferenceModel> model_;
+  const SurfaceMap* model_view_ = nullptr;
+  Eigen::Isometry3d camera_from_model_ = Eigen::Isometry3d::Identity();
+  int count_ = 0;  // of frames
+};
+
+}  // namespace pliant

@@ -1,0 +1,92 @@
+// `pliant track`: frames one after the other into a model, with what is told of each.
+#include <gmock/gmock.h>
+
+#include "experiments/runner/runner.h"
+#include "experiments/tasks/json_file.h"
+#include "framework/core/error.h"
+#include "framework/io/images.h"
+#include "framework/io/surface_mesh.h"
+#include "framework/io/trajectory_file.h"
+#include "tests/experiments/experiment_files.h"
+
+namespace pliant::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using ::testing::HasSubstr;
+
+const std::string tracked_head =
+    "model: {type: tsdf, resolution: 64}\n"
+    "data:\n"
+    "  type: head\n"
+    "  frames: 6\n"
+    "  keys: {a: {at: 0}, b: {at: 0.2, camera: {look_from: [20, 0, 0]}}}\n";
+
+class TrackTest : public ExperimentFiles {
+ protected:
+  ordered_json track(const std::string& text, const RunOptions& options = {}) {
+    const ExperimentPlan plan =
+        this->plan(text, {"data.image_width=160", "data.image_height=120", "data.focal_length=131.25"});
+    result_ = run_experiment(*make_task(plan.experiment.values), plan, file("out"), workbench_, {}, options);
+    return ordered_json::parse(text_of("out/result.json"))["runs"][0];
+  }
+
+  ExperimentResult result_;
+};
+
+TEST_F(TrackTest, TellsOfEveryFrameAndWritesModelAndTrajectory) {
+  const ordered_json run = track(tracked_head);
+  EXPECT_EQ(run["frames"], 6);
+  EXPECT_EQ(run["tracked"], 5);
+  EXPECT_EQ(run["lost"], 0);
+  EXPECT_LT(run["truth"]["ate_translation"], 2);
+  const auto lines = read_json_lines(file("out/frames.jsonl"));
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_EQ(lines[0]["state"], "started");
+  EXPECT_EQ(lines[5]["frame"], 6);
+  EXPECT_TRUE(lines[5].contains("error"));
+  EXPECT_EQ(read_whole_lines(file("out/frames.csv")).size(), 7U);
+  const auto trajectory = read_trajectory(file("out/trajectory.txt"));
+  ASSERT_EQ(trajectory.size(), 6U);
+  EXPECT_NEAR(trajectory[5].pose.translation().x(), 20, 2) << "mm, where the camera is";
+  EXPECT_GT(read_surface_mesh(file("out/model.ply"), 1).vertices.size(), 500U);
+  EXPECT_TRUE(fs::exists(file("out/model.glb")));
+  EXPECT_THAT(text_of("out/index.html"), HasSubstr("Error of rigid tracking"));
+}
+
+TEST_F(TrackTest, EndsEarlyWithWhatThereIs) {
+  RunOptions options;
+  options.is_ended = [asked = 0]() mutable { return ++asked > 3; };
+  EXPECT_EQ(track(tracked_head, options)["frames"], 3);
+  EXPECT_NO_THROW(check_ends(result_));
+}
+
+TEST_F(TrackTest, WhatBreaksAStreamLeavesTheFramesBefore) {
+  fs::create_directories(file("frames/depth"));
+  for (int i = 0; i < 4; ++i) {
+    DepthImage depth(160, 120, 0);
+    for (int v = 20; v < 100; ++v)
+      for (int u = 20; u < 140; ++u) depth(u, v) = 700 + static_cast<float>(u % 40);
+    write_depth(file("frames/depth/00000" + std::to_string(i) + ".png"), depth);
+  }
+  write("frames/depth/000002.png", "torn");
+  write("K.txt", "131.25 0 79.5\n0 131.25 59.5\n0 0 1\n");
+  const ExperimentPlan plan = this->plan(
+      "model: {type: tsdf, resolution: 64}\ndata: {type: folder, folder: frames, intrinsics: K.txt}\n");
+  result_ = run_experiment(*make_task(plan.experiment.values), plan, file("out"), workbench_);
+  const auto run = ordered_json::parse(text_of("out/result.json"))["runs"][0];
+  EXPECT_EQ(run["frames"], 2);
+  EXPECT_THAT(run["broken_by"], HasSubstr("000002.png"));
+  EXPECT_THROW(check_ends(result_), DataError);
+}
+
+TEST_F(TrackTest, ChecksTheFirstFrame) {
+  const ExperimentPlan good = plan(tracked_head);
+  EXPECT_TRUE(check_experiment(good, workbench_).empty());
+  const ExperimentPlan bad = plan("model: tsdf\ndata: {type: folder, folder: nothing, intrinsics: K.txt}\n");
+  EXPECT_THROW(check_experiment(bad, workbench_), Error);
+}
+
+}  // namespace
+}  // namespace pliant::testing

@@ -1,0 +1,45 @@
+#include "framework/io/mesh_writer.h"
+
+#include <gmock/gmock.h>
+
+#include "framework/io/gltf.h"
+#include "framework/io/surface_mesh.h"
+#include "tests/io/test_files.h"
+
+namespace pliant::testing {
+namespace {
+
+using MeshWriterTest = TestFiles;
+
+const Mesh tetrahedron{{{0, 0, 500}, {100, 0, 500}, {0, 100, 500}, {0, 0, 650.5F}},
+                       {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}},
+                       {}};
+
+TEST_F(MeshWriterTest, PlyReadsBackBitForBit) {
+  write_mesh_ply(file("model.ply"), tetrahedron);
+  const SurfaceMesh read = read_surface_mesh(file("model.ply"), 1);
+  EXPECT_EQ(read.vertices, tetrahedron.vertices);
+  EXPECT_EQ(read.triangles, tetrahedron.triangles);
+}
+
+TEST_F(MeshWriterTest, GltfIsTheSameInMetresTurnedUpright) {
+  write_glb(file("model.glb"), tetrahedron);
+  const Mesh read = read_gltf(file("model.glb"));
+  EXPECT_EQ(read.triangles, tetrahedron.triangles);
+  ASSERT_EQ(read.vertices.size(), tetrahedron.vertices.size());
+  for (std::size_t i = 0; i < read.vertices.size(); ++i) {
+    const Eigen::Vector3f& vertex = tetrahedron.vertices[i];
+    const Eigen::Vector3f upright(vertex.x(), -vertex.y(), -vertex.z());
+    EXPECT_LT((read.vertices[i] - upright).norm(), 1e-3F) << i;
+  }
+}
+
+TEST_F(MeshWriterTest, AnEmptyModelIsAFileWithoutMesh) {
+  write_glb(file("empty.glb"), {});
+  EXPECT_THAT(data_error_of([&] { read_gltf(file("empty.glb")); }), ::testing::HasSubstr("no triangle"));
+  EXPECT_THAT(data_error_of([&] { write_glb(file("no/such/folder.glb"), tetrahedron); }),
+              ::testing::HasSubstr("folder.glb"));
+}
+
+}  // namespace
+}  // namespace pliant::testing
