@@ -8,6 +8,7 @@
 #include "framework/device/device.h"
 #include "framework/evaluation/truth.h"
 #include "framework/geometry/frame_stream.h"
+#include "framework/geometry/mesh.h"
 
 namespace pliant {
 
@@ -24,6 +25,9 @@ class DataStream : public FrameStream {
   /// Where the depth camera is in frame `number`: from its frame, mm, to one that stays; nothing where that
   /// is not known.
   virtual std::optional<Eigen::Isometry3d> camera_pose(int /*number*/) const { return std::nullopt; }
+  /// The whole surface of what is there in frame `number`, seen or not, in the frame of its depth camera, mm;
+  /// nothing where that is not known.
+  virtual std::optional<Mesh> surface(int /*number*/) const { return std::nullopt; }
 };
 
 /// Where an experiment's frames come from.

@@ -89,4 +89,12 @@ std::optional<Eigen::Isometry3d> MeshStream::camera_pose(int number) const {
   return scene_->state_at(scene_->time_of(number)).camera.camera_from_scene().inverse();
 }
 
+std::optional<Mesh> MeshStream::surface(int number) const {
+  Mesh mesh;
+  for (const Eigen::Vector3d& vertex : scene_->vertices_at(scene_->time_of(number)))
+    mesh.vertices.push_back(vertex.cast<float>());
+  mesh.triangles = scene_->mesh.triangles;
+  return mesh;
+}
+
 }  // namespace pliant

@@ -27,6 +27,7 @@ class MeshStream : public DataStream {
   std::vector<std::string> warnings() const override { return scene_->warnings; }
   std::optional<PairTruth> truth(int number) const override;
   std::optional<Eigen::Isometry3d> camera_pose(int number) const override;
+  std::optional<Mesh> surface(int number) const override;
 
   const MeshScene& scene() const { return *scene_; }
   /// The exact depth of a frame, which no sensor has seen.

@@ -1,4 +1,10 @@
-#include "experiments/tasks/pose_truth.h"
+#include "experiments/tasks/track_truth.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "framework/evaluation/mesh_distance.h"
 
 namespace pliant {
 
@@ -8,11 +14,27 @@ PoseError pose_error(const Eigen::Isometry3d& found, const Eigen::Isometry3d& tr
           Eigen::AngleAxisd(between.rotation()).angle() * 180 / EIGEN_PI};
 }
 
-std::optional<PoseError> PoseTruth::error_of(const FrameRecord& record) {
+std::optional<PoseError> TrackTruth::error_of(const FrameRecord& record) {
   const auto world_from_camera = stream_.camera_pose(record.number);
-  if (record.state == FrameState::started) world_from_model_ = world_from_camera;
+  if (record.state == FrameState::started) {
+    world_from_model_ = world_from_camera;
+    first_ = record.number;
+  }
   if (!world_from_camera || !world_from_model_) return {};
   return pose_error(record.camera_from_model, world_from_camera->inverse() * *world_from_model_);
+}
+
+std::optional<ModelError> TrackTruth::error_of(const Mesh& model) const {
+  if (first_ == 0 || model.vertices.empty()) return {};
+  const auto surface = stream_.surface(first_);
+  if (!surface) return {};
+  std::vector<float> distances = MeshDistance(*surface).distances(model.vertices);
+  const auto p95 =
+      distances.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(distances.size()));
+  std::nth_element(distances.begin(), p95, distances.end());
+  return ModelError{
+      std::accumulate(distances.begin(), distances.end(), 0.0) / static_cast<double>(distances.size()),
+      static_cast<double>(*p95)};
 }
 
 }  // namespace pliant

@@ -14,21 +14,30 @@ struct PoseError {
   double rotation = 0;     ///< degrees
 };
 
+/// How far a model's surface is from the true one, mm.
+struct ModelError {
+  double mean = 0;
+  double p95 = 0;
+};
+
 /// Both move the model to the camera's frame, mm.
 PoseError pose_error(const Eigen::Isometry3d& found, const Eigen::Isometry3d& truth);
 
-/// Judges poses by those that a stream knows, both seen from the frame that began the model.
-class PoseTruth {
+/// Judges poses and models by those that a stream knows, both seen from the frame that began the model.
+class TrackTruth {
  public:
   /// `stream` must outlive this.
-  explicit PoseTruth(const DataStream& stream) : stream_(stream) {}
+  explicit TrackTruth(const DataStream& stream) : stream_(stream) {}
 
   /// Of the frames of a tracker, each in turn; none where there is no model yet or the truth is not known.
   std::optional<PoseError> error_of(const FrameRecord& record);
+  /// Of a model of these frames, at its vertices; none where it has none or the true surface is not known.
+  std::optional<ModelError> error_of(const Mesh& model) const;
 
  private:
   const DataStream& stream_;
   std::optional<Eigen::Isometry3d> world_from_model_;
+  int first_ = 0;  // frame of the model
 };
 
 }  // namespace pliant

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,14 @@
 
 namespace pliant {
 
-/// How the stream of a run ended.
-struct StreamEnd {
-  std::vector<std::string> warnings;  ///< what was odd about it
+/// How the tracking of a stream ended.
+struct TrackEnd {
+  std::vector<std::string> warnings;  ///< what was odd about the stream
   std::string error = {};             ///< what broke it; empty: it ended, or was ended
+  std::optional<ModelError> model_error = {};
 };
 
 /// What there is to show of frames that were tracked.
-RunArtefacts track_artefacts(const ExperimentRun& run, const TrackSummary& summary, const StreamEnd& end);
+RunArtefacts track_artefacts(const ExperimentRun& run, const TrackSummary& summary, const TrackEnd& end);
 
 }  // namespace pliant
