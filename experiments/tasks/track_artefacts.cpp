@@ -10,7 +10,7 @@ namespace {
 using nlohmann::ordered_json;
 using FrameFigures = TrackSummary::FrameFigures;
 
-ordered_json run_json(const ExperimentRun& run, const TrackSummary& summary, const StreamEnd& end) {
+ordered_json run_json(const ExperimentRun& run, const TrackSummary& summary, const TrackEnd& end) {
   ordered_json json = {{"name", run.name},
                        {"frames", summary.frames.size()},
                        {"waiting", summary.count(FrameState::waiting)},
@@ -23,19 +23,26 @@ ordered_json run_json(const ExperimentRun& run, const TrackSummary& summary, con
                        {"time_ms", summary.time_ms}};
   if (const auto rmse = summary.rmse())
     json["truth"] = {{"ate_translation", rmse->translation}, {"ate_rotation", rmse->rotation}};
+  if (const auto& error = end.model_error)
+    json["truth"].update({{"model_mean", error->mean}, {"model_p95", error->p95}});
   return json;
 }
 
-Table summary_table(const std::string& name, const TrackSummary& summary) {
+Table summary_table(const std::string& name, const TrackSummary& summary, const TrackEnd& end) {
   const auto rmse = summary.rmse();
-  return {
-      "",
-      {"run", "frames", "tracked", "lost", "mean error mm", "ATE mm", "ATE degrees", "frame ms", "frames/s"},
-      {{{name, std::to_string(summary.frames.size()), std::to_string(summary.count(FrameState::tracked)),
-         std::to_string(summary.count(FrameState::lost)), fmt::format("{:.2f}", summary.mean_error()),
-         rmse ? fmt::format("{:.2f}", rmse->translation) : "unknown",
-         rmse ? fmt::format("{:.3f}", rmse->rotation) : "unknown", fmt::format("{:.1f}", summary.mean_ms()),
-         fmt::format("{:.1f}", 1e3 / summary.mean_ms())}}}};
+  const auto known = [](bool is_known, const char* format, double value) {
+    return is_known ? fmt::format(fmt::runtime(format), value) : "unknown";
+  };
+  const PoseError error = rmse.value_or(PoseError{});
+  return {"",
+          {"run", "frames", "tracked", "lost", "mean error mm", "ATE mm", "ATE degrees", "model mm",
+           "frame ms", "frames/s"},
+          {{{name, std::to_string(summary.frames.size()), std::to_string(summary.count(FrameState::tracked)),
+             std::to_string(summary.count(FrameState::lost)), fmt::format("{:.2f}", summary.mean_error()),
+             known(rmse.has_value(), "{:.2f}", error.translation),
+             known(rmse.has_value(), "{:.3f}", error.rotation),
+             known(end.model_error.has_value(), "{:.2f}", end.model_error.value_or(ModelError{}).mean),
+             fmt::format("{:.1f}", summary.mean_ms()), fmt::format("{:.1f}", 1e3 / summary.mean_ms())}}}};
 }
 
 Table stages_table(const TrackSummary& summary) {
@@ -55,7 +62,7 @@ Series series_of(const TrackSummary& summary, const std::string& title, const st
   return series;
 }
 
-std::vector<std::string> notes_of(const TrackSummary& summary, const StreamEnd& end) {
+std::vector<std::string> notes_of(const TrackSummary& summary, const TrackEnd& end) {
   std::vector<std::string> notes{fmt::format("{} of {} frames tracked, {} lost",
                                              summary.count(FrameState::tracked), summary.frames.size(),
                                              summary.count(FrameState::lost))};
@@ -66,9 +73,9 @@ std::vector<std::string> notes_of(const TrackSummary& summary, const StreamEnd& 
 
 }  // namespace
 
-RunArtefacts track_artefacts(const ExperimentRun& run, const TrackSummary& summary, const StreamEnd& end) {
+RunArtefacts track_artefacts(const ExperimentRun& run, const TrackSummary& summary, const TrackEnd& end) {
   RunArtefacts made{
-      {run.name, run_json(run, summary, end), summary_table(run.name, summary), notes_of(summary, end)}};
+      {run.name, run_json(run, summary, end), summary_table(run.name, summary, end), notes_of(summary, end)}};
   if (!end.error.empty()) {
     made.failure = run.place + ": " + end.error;
     made.is_short_of_data = true;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/tasks/json_file.h"
-#include "experiments/tasks/pose_truth.h"
+#include "experiments/tasks/track_truth.h"
 #include "framework/tracking/frame_record.h"
 
 namespace pliant {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/tasks/pose_truth.h"
+#include "experiments/tasks/track_truth.h"
 #include "framework/tracking/frame_record.h"
 
 namespace pliant {

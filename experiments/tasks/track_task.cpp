@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "experiments/tasks/pose_truth.h"
 #include "experiments/tasks/task.h"
 #include "experiments/tasks/track_artefacts.h"
 #include "experiments/tasks/track_log.h"
+#include "experiments/tasks/track_truth.h"
 #include "framework/io/mesh_writer.h"
 #include "framework/tracking/tracker.h"
 
@@ -43,10 +43,17 @@ class TrackTask : public Task {
       const auto stream = workbench.open(run.values);
       Tracker tracker(method, stream->rig(), workbench.device(run.values));
       TrackSummary summary;
-      const StreamEnd end = track_all(*stream, tracker, making, summary);
+      TrackTruth truth(*stream);
+      TrackEnd end = track_all(*stream, tracker, making, truth, summary);
+      std::vector<std::filesystem::path> files;
+      for (const auto& name : TrackLog::files()) files.push_back(making.folder / name);
+      if (tracker.has_model()) {
+        const Mesh model = tracker.model().mesh();
+        end.model_error = truth.error_of(model);
+        write_model(model, making.folder, files);
+      }
       RunArtefacts made = track_artefacts(run, summary, end);
-      for (const auto& name : TrackLog::files()) made.files.push_back(making.folder / name);
-      if (tracker.has_model()) write_model(tracker.model().mesh(), making.folder, made.files);
+      made.files = std::move(files);
       return made;
     });
   }
@@ -56,10 +63,9 @@ class TrackTask : public Task {
   static constexpr const char* model_glb = "model.glb";
 
   /// Until the stream ends, breaks after its first frame, or is to be ended.
-  static StreamEnd track_all(DataStream& stream, Tracker& tracker, const Making& making,
-                             TrackSummary& summary) {
+  static TrackEnd track_all(DataStream& stream, Tracker& tracker, const Making& making, TrackTruth& truth,
+                            TrackSummary& summary) {
     CheckedStream frames(stream);
-    PoseTruth truth(stream);
     std::optional<TrackLog> log;
     try {
       while (!making.is_ended()) {

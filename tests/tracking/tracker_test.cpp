@@ -4,7 +4,7 @@
 #include <malloc.h>
 
 #include "experiments/datasets/frame_source.h"
-#include "experiments/tasks/pose_truth.h"
+#include "experiments/tasks/track_truth.h"
 #include "framework/core/error.h"
 #include "tests/experiments/experiment_files.h"
 
