@@ -112,6 +112,7 @@ ParameterTable experiment_table() {
                      .at_least(1)
                      .doc("bend the source by these handles instead of registering it to the target"));
   for (auto& row : tracking_rows()) rows.push_back(std::move(row));
+  rows.push_back(group("record", record_table()).doc("what is kept of frames that are tracked, to look at"));
   for (auto& row : method_rows()) rows.push_back(std::move(row));
   rows.push_back(components("reports", Report::kind)
                      .optional()

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "experiments/report/artefacts.h"
+#include "experiments/tasks/task.h"
+#include "experiments/view/picture_strip.h"
+#include "experiments/view/track_video.h"
+#include "experiments/view/track_view.h"
+#include "framework/tracking/tracker.h"
+
+namespace pliant {
+
+/// Lets everyone watch the frames of a run who is to: its observer, and what makes pictures of them.
+class TrackPictures {
+ public:
+  TrackPictures(const ExperimentRun& run, const Making& making, const Rig& rig);
+  TrackPictures(const TrackPictures&) = delete;
+  TrackPictures& operator=(const TrackPictures&) = delete;
+
+  /// What the tracker made of its last frame; gives whether to go on. Throws DataError when the film cannot
+  /// be written.
+  bool show(const Frame& frame, const FrameRecord& record, const Tracker& tracker);
+  /// Adds what there is to see; `model`: in the end. Frames that began no model leave at most a film.
+  void add_to(RunArtefacts& made, Mesh model) const;
+
+  static constexpr const char* strip_name = "strip";
+  static constexpr const char* video_name = "video.avi";
+
+ private:
+  std::shared_ptr<PictureStrip> strip_ = std::make_shared<PictureStrip>();
+  std::shared_ptr<TrackView> view_ = std::make_shared<TrackView>();
+  std::filesystem::path video_file_;
+  std::optional<TrackVideo> video_;
+  std::vector<TrackObserver*> observers_;
+};
+
+}  // namespace pliant
