@@ -121,6 +121,17 @@ class KeyReader {
   const std::string& what_;
 };
 
+SurfaceColor read_color(const Parameters& section, const Figure& figure, const std::string& what) {
+  const std::string& texture = section.text("texture");
+  const auto seed = static_cast<std::uint64_t>(section.integer("texture_seed"));
+  if (texture == "rich") return {SurfaceColor::Kind::rich, seed};
+  if (texture == "skin") return {SurfaceColor::Kind::skin, seed};
+  if (figure.patches.empty())
+    throw ConfigError(place_of(section, what, "texture") +
+                      " is face, which only a head has; expected rich or skin");
+  return {SurfaceColor::Kind::skin, seed, figure.patches};
+}
+
 }  // namespace
 
 ParameterTable scene_table(std::vector<Parameter> rows) {
@@ -146,7 +157,8 @@ ParameterTable scene_table(std::vector<Parameter> rows) {
                      .doc("from the camera to the middle of the mesh; by default it fills four fifths of the "
                           "image, at 400 mm or more"));
   rows.push_back(
-      choice("texture", {"rich", "skin"}, "rich").doc("colour: features everywhere, or hardly any"));
+      choice("texture", {"rich", "skin", "face"}, "rich")
+          .doc("colour: features everywhere, hardly any, or skin with the eyes, brows and lips of a head"));
   rows.push_back(integer("texture_seed", 1).at_least(0).doc("of the colour"));
   rows.push_back(group("sensor", depth_sensor_table()).doc("errors of the depth camera; none by default"));
   ParameterTable table = with_camera(std::move(rows));
@@ -160,7 +172,6 @@ ParameterTable scene_table(std::vector<Parameter> rows) {
 MeshScene read_scene(const Parameters& section, const Figure& figure, FigurePose base,
                      const std::string& what, const std::string& title) {
   const KeyReader reader(section, figure, what);
-  const auto kind = section.text("texture") == "skin" ? SurfaceColor::Kind::skin : SurfaceColor::Kind::rich;
   const Eigen::AlignedBox3d box = box_around(figure.mesh, base);
   MeshScene scene{what,
                   title,
@@ -172,7 +183,7 @@ MeshScene read_scene(const Parameters& section, const Figure& figure, FigurePose
                   read_rig(section),
                   {},
                   0,
-                  SurfaceColor(kind, static_cast<std::uint64_t>(section.integer("texture_seed"))),
+                  read_color(section, figure, what),
                   read_depth_sensor(section.section("sensor")),
                   {}};
   scene.distance =

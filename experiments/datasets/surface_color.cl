@@ -98,3 +98,20 @@ kernel void paint(int count, global const int* triangles, global const float* re
   for (int lane = 0; lane < here; ++lane)
     vstore3(convert_uchar3((int3)(r[lane], g[lane], b[lane])), first + lane, colors);
 }
+
+// Patches over what was painted: a pixel a work-item. Ten numbers a patch: centre, radii, colour, strength.
+kernel void paint_patches(int count, global const int* triangles, global const float* rest, int patches,
+                          global const float* numbers, float edge, global uchar* colors) {
+  const int pixel = get_global_id(0);
+  if (pixel >= count || triangles[pixel] < 0) return;
+  const float3 point = vload3(pixel, rest);
+  float3 color = convert_float3(vload3(pixel, colors));
+  for (int i = 0; i < patches; ++i) {
+    global const float* patch = numbers + 10 * i;
+    const float inside =
+        clamp((1.0f - length((point - vload3(0, patch)) / vload3(1, patch))) / edge, 0.0f, 1.0f);
+    const float share = patch[9] * inside * inside * (3.0f - 2.0f * inside);
+    color = floor(clamp(color + share * (vload3(2, patch) - color), 0.0f, 255.0f) + 0.5f);
+  }
+  vstore3(convert_uchar3(color), pixel, colors);
+}

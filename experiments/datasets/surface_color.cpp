@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "experiments/datasets/surface_color.cl.embed.h"
 #include "framework/device/lanes.h"
@@ -16,6 +17,8 @@ namespace {
 // The noise above which there is a freckle, and from there the noise at which it is darkest.
 constexpr float freckle_begin = 0.55F;
 constexpr float freckle_edge = 0.35F;
+// Of the radius of a patch, on which its colour fades.
+constexpr float patch_edge = 0.5F;
 
 using Cell = std::array<std::uint32_t, 3>;
 
@@ -52,16 +55,43 @@ Eigen::Vector3f noise_at(const Eigen::Vector3f& point, float spacing, std::uint3
   return value / 511.5F - Eigen::Vector3f::Ones();
 }
 
-float freckle(float noise) {
-  const float share = std::clamp((noise - freckle_begin) / freckle_edge, 0.0F, 1.0F);
-  return share * share * (3 - 2 * share);
+float smooth(float share) {
+  const float within = std::clamp(share, 0.0F, 1.0F);
+  return within * within * (3 - 2 * within);
+}
+
+float freckle(float noise) { return smooth((noise - freckle_begin) / freckle_edge); }
+
+std::uint8_t to_byte(float value) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)));
+}
+
+/// A colour under a patch.
+Rgb under(const ColorPatch& patch, const Eigen::Vector3f& point, const Rgb& color) {
+  const float distance = ((point - patch.centre).array() / patch.radii.array()).matrix().norm();
+  const float share = patch.strength * smooth((1 - distance) / patch_edge);
+  const Eigen::Vector3f before(color.r, color.g, color.b);
+  const Eigen::Vector3f mixed = before + share * (patch.color - before);
+  return {to_byte(mixed.x()), to_byte(mixed.y()), to_byte(mixed.z())};
+}
+
+/// All numbers of patches, as the kernel reads them.
+Array<float> flat(const std::vector<ColorPatch>& patches) {
+  std::vector<float> numbers;
+  for (const ColorPatch& patch : patches) {
+    for (const Eigen::Vector3f* vector : {&patch.centre, &patch.radii, &patch.color})
+      numbers.insert(numbers.end(), vector->data(), vector->data() + 3);
+    numbers.push_back(patch.strength);
+  }
+  return Array<float>(std::move(numbers));
 }
 
 }  // namespace
 
-SurfaceColor::SurfaceColor(Kind kind, std::uint64_t seed)
+SurfaceColor::SurfaceColor(Kind kind, std::uint64_t seed, std::vector<ColorPatch> patches)
     : base_(kind == Kind::rich ? Eigen::Vector3f(127.5F, 127.5F, 127.5F) : Eigen::Vector3f(214, 165, 136)),
-      is_toned_(kind == Kind::skin) {
+      is_toned_(kind == Kind::skin),
+      patches_(std::move(patches)) {
   std::mt19937_64 generator(seed);
   const auto key = [&] { return static_cast<std::uint32_t>(generator() >> 32); };
   constexpr float third = 127.5F / 3;
@@ -88,7 +118,19 @@ Array<cl_uchar> SurfaceColor::paint(Device& device, const MeshView& view, const 
              cl_uint4{{coarse.key, middle.key, fine.key, freckles_.key}},
              cl_float4{{base_.x(), base_.y(), base_.z(), 0}}, cl_int{is_toned_ ? 1 : 0},
              colors.write_device(device));
+  if (!patches_.empty()) paint_patches(device, view, rest, colors);
   return colors;
+}
+
+void SurfaceColor::paint_patches(Device& device, const MeshView& view, const Array<float>& rest,
+                                 Array<cl_uchar>& colors) const {
+  static const std::string source = with_lanes(embedded::experiments_datasets_surface_color_cl);
+  static const std::string options =
+      fmt::format("-DFRECKLE_BEGIN={:.9e}f -DFRECKLE_EDGE={:.9e}f", freckle_begin, freckle_edge);
+  auto kernel = device.kernel(source, "paint_patches", options);
+  device.run("render", kernel, view.triangles.size(), 16, static_cast<cl_int>(view.triangles.size()),
+             view.triangles.device(device), rest.device(device), static_cast<cl_int>(patches_.size()),
+             flat(patches_).device(device), patch_edge, colors.write_device(device));
 }
 
 Rgb SurfaceColor::color_of(const Eigen::Vector3f& rest) const {
@@ -99,10 +141,10 @@ Rgb SurfaceColor::color_of(const Eigen::Vector3f& rest) const {
     tone -= freckles_.amplitude * freckle(noise_at(rest, freckles_.spacing, freckles_.key).x());
     sum = tone / 255 * base_;
   }
-  const auto byte = [&](int channel) {
-    return static_cast<std::uint8_t>(std::lround(std::clamp(base_[channel] + sum[channel], 0.0F, 255.0F)));
-  };
-  return {byte(0), byte(1), byte(2)};
+  const Eigen::Vector3f whole = base_ + sum;
+  Rgb color{to_byte(whole.x()), to_byte(whole.y()), to_byte(whole.z())};
+  for (const ColorPatch& patch : patches_) color = under(patch, rest, color);
+  return color;
 }
 
 ColorImage read_colors(const Array<cl_uchar>& colors, const Camera& camera) {

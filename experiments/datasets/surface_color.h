@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <vector>
 
+#include "experiments/modeller/figure.h"
 #include "framework/geometry/image.h"
 #include "framework/geometry/mesh_renderer.h"
 
@@ -19,7 +21,7 @@ class SurfaceColor {
     skin,  ///< one tone of low contrast with a few freckles: hardly any
   };
 
-  SurfaceColor(Kind kind, std::uint64_t seed);
+  SurfaceColor(Kind kind, std::uint64_t seed, std::vector<ColorPatch> patches = {});
 
   /// Colours what a view shows, r g b in turn; `rest` are the points' coordinates at rest, x y z a pixel.
   /// Black where nothing is seen.
@@ -36,10 +38,14 @@ class SurfaceColor {
     std::uint32_t key;
   };
 
+  void paint_patches(Device& device, const MeshView& view, const Array<float>& rest,
+                     Array<cl_uchar>& colors) const;
+
   std::array<Noise, scales> noises_;
   Noise freckles_;
   Eigen::Vector3f base_;  ///< r g b of the middle, of 255
   bool is_toned_;         ///< noise makes all channels brighter alike
+  std::vector<ColorPatch> patches_;
 };
 
 /// Colours from the device, which this waits for.

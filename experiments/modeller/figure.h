@@ -24,11 +24,21 @@ struct NamedPose {
   std::vector<Turn> turns = {};
 };
 
+/// A soft patch of another colour, as a brow: all of its own in the middle of an ellipsoid, none at its
+/// border.
+struct ColorPatch {
+  Eigen::Vector3f centre;  ///< mm, in the mesh's frame at rest
+  Eigen::Vector3f radii;   ///< mm, along the axes
+  Eigen::Vector3f color;   ///< r g b, of 255
+  float strength = 1;      ///< how much of the colour is in the middle
+};
+
 /// A modelled thing that can be seen and deforms: a closed mesh in mm, y up, looking along +z, its triangles
 /// counter-clockwise from outside.
 struct Figure {
   Mesh mesh;
   std::vector<NamedPose> poses;
+  std::vector<ColorPatch> patches = {};  ///< on a plain skin, each over those before
 };
 
 /// A figure that experiment files can name.

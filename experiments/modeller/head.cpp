@@ -137,9 +137,33 @@ Sampling head_sampling(const HeadMeasures& head) {
            {Eigen::Vector3d(-ear.x(), ear.y(), ear.z()), 30, 0.35}}};
 }
 
+/// What makes a face of the skin: without light nothing else tells where eyes, brows and lips are.
+std::vector<ColorPatch> face_patches(const HeadMeasures& head) {
+  std::vector<ColorPatch> patches;
+  const auto add = [&](const Eigen::Vector3d& centre, const Eigen::Vector3f& radii,
+                       const Eigen::Vector3f& color, float strength) {
+    patches.push_back({centre.cast<float>(), radii, color, strength});
+  };
+  const auto add_pair = [&](const Eigen::Vector3d& centre, const Eigen::Vector3f& radii,
+                            const Eigen::Vector3f& color, float strength) {
+    add(centre, radii, color, strength);
+    add({-centre.x(), centre.y(), centre.z()}, radii, color, strength);
+  };
+  const Eigen::Vector3f shade(120, 80, 62), hair(58, 40, 30), white(205, 196, 188), iris(62, 42, 32),
+      red(150, 74, 70);
+  const Eigen::Vector3d& eye = head.eye;
+  add_pair(eye + Eigen::Vector3d(-4, 3, 8), {27, 17, 26}, shade, 0.75F);
+  add_pair(eye + Eigen::Vector3d(-3, 24, 12), {26, 6, 24}, hair, 0.85F);
+  add_pair(eye + Eigen::Vector3d(-0.5, 0, 12), {15, 6, 12}, white, 0.8F);
+  add_pair(eye + Eigen::Vector3d(0, 0, 14), {7, 7, 10}, iris, 1);
+  add_pair(head.nose_tip + Eigen::Vector3d(7, -10, -4), {6, 5, 7}, hair, 0.7F);
+  add(head.mouth + Eigen::Vector3d(0, 0, -4), {30, 10, 22}, red, 0.85F);
+  return patches;
+}
+
 Figure make_head(const Parameters& identity) {
   const HeadMeasures head(identity);
-  Figure figure{polygonise(head_solid(head), head_sampling(head)), head_poses()};
+  Figure figure{polygonise(head_solid(head), head_sampling(head)), head_poses(), face_patches(head)};
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3f& vertex : figure.mesh.vertices) points.push_back(vertex.cast<double>());
   figure.mesh.targets = head_targets(head, points);

@@ -8,6 +8,7 @@
 #include "framework/pose/alignments.h"
 #include "framework/registration/correspondence.h"
 #include "framework/registration/handle.h"
+#include "framework/segmentation/segmentations.h"
 #include "graphs/graphs.h"
 #include "samplers/samplers.h"
 #include "solvers/solvers.h"
@@ -17,6 +18,7 @@ namespace pliant {
 void register_everything(Registry& registry) {
   register_datasets(registry);
   register_filters(registry);
+  register_segmentations(registry);
   register_alignments(registry);
   register_graphs(registry);
   register_transforms(registry);

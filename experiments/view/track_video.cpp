@@ -1,30 +1,22 @@
 #include "experiments/view/track_video.h"
 
+#include <cstdint>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include "framework/core/error.h"
+#include <vector>
 
 namespace pliant {
-namespace {
-
-constexpr int panel_width = 320;
-constexpr double pictures_a_second = 30;
-
-}  // namespace
-
-void TrackVideo::begin(const Rig& rig) {
-  picture_.emplace(rig, panel_width);
-  writer_.open(file_.string(), cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
-               pictures_a_second, picture_->size());
-  if (!writer_.isOpened()) throw DataError(file_.string() + ": the film cannot be written");
-}
 
 bool TrackVideo::show(const TrackedFrame& tracked) {
   if ((tracked.record.number - 1) % every_ != 0) return true;
+  const cv::Size size = picture_->size();
+  if (!film_) film_ = std::make_unique<FilmFile>(file_, size.width, size.height);
   ColorImage picture = picture_->draw(tracked, rate_.at(tracked.record.number));
-  cv::Mat pixels(picture_->size(), CV_8UC3, picture.data());
+  cv::Mat pixels(size, CV_8UC3, picture.data());
   cv::cvtColor(pixels, pixels, cv::COLOR_RGB2BGR);
-  writer_.write(pixels);
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", pixels, jpeg, {cv::IMWRITE_JPEG_QUALITY, 90});
+  film_->append(jpeg);
   return true;
 }
 

@@ -63,10 +63,15 @@ std::optional<Eigen::Vector2i> shown_at(const Eigen::Vector3d& point, const Came
 
 }  // namespace
 
+DepthImage depth_at_color(const DepthImage& depth, const Rig& rig) {
+  if (!rig.color) return depth;
+  return depth_of(render_mesh(points_of(depth, rig), triangles_of(depth), *rig.color));
+}
+
 ColorImage color_at_depth(const Frame& frame, const Rig& rig) {
   if (!rig.color || frame.color.empty()) return frame.color;
   const Points points = points_of(frame.depth, rig);
-  const DepthImage nearest = depth_of(render_mesh(points, triangles_of(frame.depth), *rig.color));
+  const DepthImage nearest = depth_at_color(frame.depth, rig);
   ColorImage color(frame.depth.width(), frame.depth.height());
   for (std::size_t i = 0; i < points.size(); ++i)
     if (const auto pixel = shown_at(points[i], *rig.color, nearest))

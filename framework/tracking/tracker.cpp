@@ -2,22 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "framework/core/stopwatch.h"
 
 namespace pliant {
 namespace {
-
-/// A copy without the depths beyond `farthest` mm; 0: with all.
-Frame cut_frame(const Frame& frame, double farthest) {
-  Frame cut = frame;
-  if (farthest <= 0) return cut;
-  float* depth = cut.depth.data();
-  std::replace_if(
-      depth, depth + cut.depth.size(), [&](float z) { return z > farthest; }, 0.0F);
-  return cut;
-}
 
 bool shows_depth(const Frame& frame, const PixelWindow& region) {
   for (int v = region.top; v < region.top + region.height; ++v)
@@ -29,11 +17,7 @@ bool shows_depth(const Frame& frame, const PixelWindow& region) {
 }  // namespace
 
 Tracker::Tracker(const TrackingMethod& method, const Rig& rig, Device& device)
-    : method_(method),
-      rig_(rig),
-      device_(device),
-      preprocessor_(device, rig.depth, *method.filter, *method.normals, method.depth_cut),
-      pose_(method.pose->make(device)) {
+    : method_(method), rig_(rig), device_(device), pose_(method.pose->make(device)) {
   check(rig, "the rig");
 }
 
@@ -45,7 +29,7 @@ FrameRecord Tracker::track(const Frame& frame) {
   check(frame, rig_, fmt::format("frame {}", record.number));
   device_.take_stage_times();  // of whatever came before
   if (has_model() || find_object(frame, record)) {
-    timed(record.time_ms, "upload", [&] { return preprocessor_.process(frame); });
+    timed(record.time_ms, "upload", [&] { return preprocessor_->process(frame); });
     if (has_model())
       follow(record);
     else
@@ -60,7 +44,8 @@ FrameRecord Tracker::track(const Frame& frame) {
 
 /// Whether the frame shows what is to be modelled; its region is the one from now on.
 bool Tracker::find_object(const Frame& frame, FrameRecord& record) {
-  const Frame cut = cut_frame(frame, method_.depth_cut);
+  Frame cut = frame;
+  cut.depth = cut_depth(frame.depth, method_.acquisition.farthest());
   const auto region =
       timed(record.time_ms, "segmentation", [&] { return method_.segmentation->find(cut, rig_); });
   if (!region)
@@ -68,7 +53,7 @@ bool Tracker::find_object(const Frame& frame, FrameRecord& record) {
   else if (!shows_depth(cut, *region))
     record.reason = "there is no depth";
   else
-    preprocessor_.set_region(*region);
+    preprocessor_.emplace(device_, rig_, method_.acquisition, *region);
   return record.reason.empty();
 }
 
@@ -91,7 +76,7 @@ void Tracker::follow(FrameRecord& record) {
 
 /// Fuses the frame as it was seen, unfiltered, into the model, and looks at that from its camera [3.2].
 void Tracker::fuse() {
-  model_->integrate(preprocessor_.depth(), rig_.depth, camera_from_model_);
+  model_->integrate(preprocessor_->depth(), rig_.depth, camera_from_model_);
   model_view_ = &model_->raycast(rig_.depth, seen().window, camera_from_model_);
 }
 

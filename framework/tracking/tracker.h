@@ -30,7 +30,7 @@ class Tracker {
   /// Whether a frame has begun the model. What follows asks for one.
   bool has_model() const { return model_ != nullptr; }
   /// The surface of the frame that was tracked last, filtered, in the frame of its camera.
-  const SurfaceMap& seen() const { return preprocessor_.surface(); }
+  const SurfaceMap& seen() const { return preprocessor_->surface(); }
   /// What that camera would see of the model at the last pose that was found.
   const SurfaceMap& model_view() const { return *model_view_; }
   const ReferenceModel& model() const { return *model_; }
@@ -44,7 +44,7 @@ class Tracker {
   const TrackingMethod& method_;
   Rig rig_;
   Device& device_;
-  Preprocessor preprocessor_;
+  std::optional<Preprocessor> preprocessor_;  // once the region is known
   std::unique_ptr<PoseEstimator> pose_;
   std::unique_ptr<ReferenceModel> model_;
   const SurfaceMap* model_view_ = nullptr;

@@ -238,6 +238,8 @@ TEST_F(MeshSources, WhatCannotBeAskedForIsAnError) {
               AllOf(HasSubstr("'target' of " + file("square.glb") + " names 'buldge'"),
                     HasSubstr("did you mean 'bulge'?")));
   EXPECT_THAT(config_error_of("{type: head, source: [smlie=1]}"), HasSubstr("did you mean 'smile'?"));
+  EXPECT_THAT(config_error_of("{type: hand, texture: face}"),
+              AllOf(HasSubstr("'texture' of hand"), HasSubstr("only a head has")));
   EXPECT_THAT(config_error_of(section(", keys: {a: {at: 0, pose: [x=1]}, b: {at: 1}}")),
               HasSubstr("'pose' of " + file("square.glb") + " names 'x'"));
   EXPECT_THAT(config_error_of(section(", keys: {}")),

@@ -69,6 +69,19 @@ TEST(SurfaceColor, SkinHasAToneAndLittleContrast) {
   }
 }
 
+const std::vector<ColorPatch> patches{{{10, -20, 30}, {150, 90, 200}, {20, 30, 40}, 0.8F},
+                                      {{60, 0, 0}, {80, 80, 80}, {250, 240, 230}, 1}};
+
+TEST(SurfaceColor, PatchesAreAllOfTheirColourInTheMiddleAndNoneAtTheirBorder) {
+  const SurfaceColor plain(Kind::skin, 5);
+  const SurfaceColor patched(Kind::skin, 5, patches);
+  EXPECT_EQ(patched.color_of({60, 0, 0}), (Rgb{250, 240, 230}));
+  EXPECT_EQ(patched.color_of({60, 30, 20}), (Rgb{250, 240, 230})) << "the later patch is on top";
+  EXPECT_EQ(patched.color_of({161, -20, 30}), plain.color_of({161, -20, 30}));
+  const Rgb partly = patched.color_of({-20, -20, 30});
+  EXPECT_NEAR(partly.r, 0.2 * plain.color_of({-20, -20, 30}).r + 0.8 * 20, 1);
+}
+
 class SurfaceColorOnDevice : public testing::TestWithParam<int> {};
 
 // Widths of vectors, and a number of pixels that neither divides.
@@ -83,8 +96,8 @@ TEST_P(SurfaceColorOnDevice, IsThatOfTheReference) {
   MeshView view{camera, Array<cl_int>(std::vector<cl_int>(count, 0)), {}, {}};
   for (std::size_t i = 0; i < count; i += 3) view.triangles.write_host()[i] = -1;
   const Array<float> points(rest);
-  for (const Kind kind : {Kind::rich, Kind::skin}) {
-    const SurfaceColor color(kind, 9);
+  for (const SurfaceColor& color :
+       {SurfaceColor(Kind::rich, 9), SurfaceColor(Kind::skin, 9), SurfaceColor(Kind::skin, 9, patches)}) {
     const ColorImage image = read_colors(color.paint(device, view, points), camera);
     for (std::size_t i = 0; i < count; ++i) {
       const Rgb expected =

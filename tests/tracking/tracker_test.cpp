@@ -27,7 +27,7 @@ class TrackerTest : public ExperimentFiles {
                       std::to_string(frames) +
                       ", keys: {a: {at: 0}, b: {at: 0.36, camera: "
                       "{look_from: [60, -20, 10]}}}}",
-                  "model={type: tsdf, resolution: 96}", "filter=bilateral"})
+                  "model={type: tsdf, resolution: 96}"})
                 .runs.at(0)
                 .values),
         method_(make_tracking_method(values_, registry_)),
@@ -107,7 +107,7 @@ TEST_F(TrackerTest, WaitsForAFrameThatShowsSomething) {
 }
 
 TEST_F(TrackerTest, WhatIsBeyondTheDepthCutIsNotThere) {
-  method_.depth_cut = 100;  // before the head begins
+  method_.acquisition.depth_cut = 100;  // before the head begins
   for (const FrameRecord& record : track({seen_[0], seen_[1]})) EXPECT_EQ(record.state, FrameState::waiting);
 }
 

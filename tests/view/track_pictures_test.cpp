@@ -3,7 +3,6 @@
 
 #include <numeric>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 #include <set>
 
 #include "experiments/view/clustered_mesh.h"
@@ -77,39 +76,59 @@ TEST(PictureStrip, ShowsTheModelAndItsErrors) {
   EXPECT_TRUE(shows(error[255]) && shows(error[0]) && shows(no_color));
 }
 
+/// The pictures of a film, in their order; its chunks are walked through as players do.
+std::vector<cv::Mat> pictures_of(const std::string& film) {
+  const std::vector<std::uint8_t> bytes = read_file(film);
+  const auto number = [&](std::size_t at) {
+    return bytes[at] | static_cast<std::size_t>(bytes[at + 1]) << 8 |
+           static_cast<std::size_t>(bytes[at + 2]) << 16 | static_cast<std::size_t>(bytes[at + 3]) << 24;
+  };
+  const auto word = [&](std::size_t at) { return std::string(bytes.begin() + at, bytes.begin() + at + 4); };
+  EXPECT_EQ(word(0) + word(8), "RIFFAVI ");
+  EXPECT_EQ(number(4) + 8, bytes.size());
+  std::size_t at = 12;
+  while (word(at + 8) != "movi") at += 8 + number(at + 4);
+  EXPECT_EQ(at + 8 + number(at + 4), bytes.size());
+  std::vector<cv::Mat> pictures;
+  for (at += 12; at < bytes.size(); at += 8 + (number(at + 4) + 1) / 2 * 2) {
+    EXPECT_EQ(word(at), "00dc");
+    const std::vector<std::uint8_t> jpeg(bytes.begin() + at + 8, bytes.begin() + at + 8 + number(at + 4));
+    pictures.push_back(cv::imdecode(jpeg, cv::IMREAD_COLOR));
+  }
+  EXPECT_EQ(number(48), pictures.size()) << "as its head says";
+  EXPECT_EQ(number(64), pictures.at(0).cols);
+  EXPECT_EQ(number(68), pictures.at(0).rows);
+  return pictures;
+}
+
 class TrackVideoTest : public TestFiles {
  protected:
-  int pictures(int frames, int every) {
-    {
-      TrackVideo video(file("video.avi"), every);
-      video.begin({sample_.camera});
-      for (int i = 0; i < frames; ++i) {
-        sample_.record.number = i + 1;
-        video.show(sample_.tracked());
-      }
+  std::vector<cv::Mat> record(int frames, int every) {
+    TrackVideo video(file("video.avi"), every);
+    video.begin({sample_.camera});
+    for (int i = 0; i < frames; ++i) {
+      sample_.record.number = i + 1;
+      video.show(sample_.tracked());
     }
-    cv::VideoCapture film(file("video.avi"), cv::CAP_OPENCV_MJPEG);
-    EXPECT_TRUE(film.isOpened());
-    int count = 0;
-    for (cv::Mat picture; film.read(picture); ++count) picture.copyTo(last_);
-    return count;
+    return pictures_of(file("video.avi"));  // while it is still being written
   }
 
   SampleTracked sample_;
-  cv::Mat last_;
 };
 
-TEST_F(TrackVideoTest, HasAPictureOfEveryNthFrame) {
-  EXPECT_EQ(pictures(5, 1), 5);
-  EXPECT_EQ(pictures(5, 2), 3);
-  const auto model = last_.at<cv::Vec3b>(24 + 264 + 120, 6 + 160);
+TEST_F(TrackVideoTest, HasAPictureOfEveryNthFrameAsSoonAsItIsThere) {
+  EXPECT_EQ(record(5, 1).size(), 5U);
+  const auto pictures = record(5, 2);
+  ASSERT_EQ(pictures.size(), 3U);
+  const auto model = pictures[2].at<cv::Vec3b>(24 + 264 + 120, 6 + 160);
   EXPECT_NEAR(model[0], 207, 12) << "blue, of the model's chalk";
   EXPECT_NEAR(model[2], 225, 12);
 }
 
 TEST_F(TrackVideoTest, WhereItCannotBeWrittenSaysSo) {
   TrackVideo video(file("missing/video.avi"), 1);
-  EXPECT_THAT(data_error_of([&] { video.begin({sample_.camera}); }), HasSubstr("missing/video.avi"));
+  video.begin({sample_.camera});
+  EXPECT_THAT(data_error_of([&] { video.show(sample_.tracked()); }), HasSubstr("missing/video.avi"));
 }
 
 /// A square of side x side vertices, 100 mm wide.

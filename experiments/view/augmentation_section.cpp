@@ -1,0 +1,70 @@
+#include "experiments/view/augmentation_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <utility>
+
+#include "experiments/datasets/camera_path.h"
+#include "framework/io/gltf.h"
+
+namespace pliant {
+namespace {
+
+Eigen::Vector3d vector(const Parameters& section, const char* name) {
+  return Eigen::Map<const Eigen::Vector3d>(section.reals(name).data());
+}
+
+Rgb read_color(const Parameters& section) {
+  const Eigen::Vector3d color = vector(section, "color");
+  const auto byte = [](double value) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+  };
+  return {byte(color.x()), byte(color.y()), byte(color.z())};
+}
+
+SurfaceMesh read_mesh(const std::string& file, double scale) {
+  const auto extension = std::filesystem::path(file).extension();
+  if (extension == ".ply" || extension == ".obj") return read_surface_mesh(file, scale);
+  Mesh mesh = read_gltf(file, scale);
+  return {std::move(mesh.vertices), std::move(mesh.triangles), {}};
+}
+
+}  // namespace
+
+ParameterTable augmentation_table() {
+  return {
+      path("mesh").doc("glTF (.glb or .gltf), PLY or OBJ file, y up, looking along +z"),
+      real("scale", millimetres_per_metre).unit("mm").above(0).doc("what a unit of the file is"),
+      reals("at", 3, std::vector<double>{0, 0, 0})
+          .unit("mm")
+          .doc("where its origin is fixed, in the model's frame, that of the first depth image: x right, y "
+               "down, "
+               "z forward"),
+      reals("turn", 3, std::vector<double>{0, 0, 0})
+          .unit("degree")
+          .doc("how it is turned in that frame about x, then y, then z, from upright and facing the camera"),
+      reals("color", 3, std::vector<double>{240, 170, 40})
+          .doc("red, green and blue, 0 to 255, of an object whose file has no colours of vertices"),
+      real("tolerance", 5)
+          .unit("mm")
+          .at_least(0)
+          .doc("so far the measured surface may be before it without hiding it"),
+  };
+}
+
+Augmentation::Object read_object(const Parameters& section) {
+  Augmentation::Object object{read_mesh(section.text("mesh"), section.real("scale"))};
+  if (object.mesh.colors.empty()) object.mesh.colors.assign(object.mesh.vertices.size(), read_color(section));
+  const Eigen::AngleAxisd upright(std::numbers::pi, Eigen::Vector3d::UnitX());
+  object.model_from_object =
+      Eigen::Translation3d(vector(section, "at")) * turned(vector(section, "turn")) * upright;
+  return object;
+}
+
+Augmentation make_augmentation(const Parameters& section, Device& device, const Rig& rig) {
+  return {device, read_object(section), rig, section.real("tolerance")};
+}
+
+}  // namespace pliant
