@@ -22,9 +22,11 @@ constexpr std::streamoff length_at = 140;
 constexpr std::streamoff pictures_size_at = 216;
 constexpr std::uint32_t pictures_at = 220;
 
-void append(Bytes& bytes, std::string_view word) { bytes.insert(bytes.end(), word.begin(), word.end()); }
+void add(Bytes& bytes, std::string_view word) {
+  for (const char letter : word) bytes.push_back(static_cast<std::uint8_t>(letter));
+}
 
-void append(Bytes& bytes, std::initializer_list<std::uint32_t> numbers) {
+void add(Bytes& bytes, std::initializer_list<std::uint32_t> numbers) {
   for (const std::uint32_t number : numbers) append(bytes, number);
 }
 
@@ -32,25 +34,25 @@ void append(Bytes& bytes, std::initializer_list<std::uint32_t> numbers) {
 /// lay them out.
 Bytes head(std::uint32_t width, std::uint32_t height) {
   Bytes bytes;
-  append(bytes, "RIFF");
-  append(bytes, {pictures_at + 4 - 8});
-  append(bytes, "AVI LIST");
-  append(bytes, {192});
-  append(bytes, "hdrlavih");
-  append(bytes, {56, 1'000'000 / pictures_a_second, 0, 0, 0, 0, 0, 1, 0, width, height, 0, 0, 0, 0});
-  append(bytes, "LIST");
-  append(bytes, {116});
-  append(bytes, "strlstrh");
-  append(bytes, {56});
-  append(bytes, "vidsMJPG");
-  append(bytes, {0, 0, 0, 1, pictures_a_second, 0, 0, 0, 0xFFFFFFFF, 0, 0, height << 16 | width});
-  append(bytes, "strf");
-  append(bytes, {40, 40, width, height, 24 << 16 | 1});
-  append(bytes, "MJPG");
-  append(bytes, {3 * width * height, 0, 0, 0, 0});
-  append(bytes, "LIST");
-  append(bytes, {4});
-  append(bytes, "movi");
+  add(bytes, "RIFF");
+  add(bytes, {pictures_at + 4 - 8});
+  add(bytes, "AVI LIST");
+  add(bytes, {192});
+  add(bytes, "hdrlavih");
+  add(bytes, {56, 1'000'000 / pictures_a_second, 0, 0, 0, 0, 0, 1, 0, width, height, 0, 0, 0, 0});
+  add(bytes, "LIST");
+  add(bytes, {116});
+  add(bytes, "strlstrh");
+  add(bytes, {56});
+  add(bytes, "vidsMJPG");
+  add(bytes, {0, 0, 0, 1, pictures_a_second, 0, 0, 0, 0xFFFFFFFF, 0, 0, height << 16 | width});
+  add(bytes, "strf");
+  add(bytes, {40, 40, width, height, 24 << 16 | 1});
+  add(bytes, "MJPG");
+  add(bytes, {3 * width * height, 0, 0, 0, 0});
+  add(bytes, "LIST");
+  add(bytes, {4});
+  add(bytes, "movi");
   return bytes;
 }
 
@@ -64,12 +66,12 @@ FilmFile::FilmFile(std::filesystem::path file, int width, int height)
 
 bool FilmFile::append(const Bytes& jpeg) {
   if (size_ + jpeg.size() + 9 > most_bytes) return false;
-  Bytes chunk;
-  pliant::append(chunk, "00dc");
-  pliant::append(chunk, {static_cast<std::uint32_t>(jpeg.size())});
-  chunk.insert(chunk.end(), jpeg.begin(), jpeg.end());
-  if (chunk.size() % 2 != 0) chunk.push_back(0);
-  write(chunk);
+  Bytes chunk_head;
+  add(chunk_head, "00dc");
+  add(chunk_head, {static_cast<std::uint32_t>(jpeg.size())});
+  write(chunk_head);
+  write(jpeg);
+  if (jpeg.size() % 2 != 0) write({0});
   ++pictures_;
   write_number(file_size_at, size_ - 8);
   write_number(picture_count_at, pictures_);
@@ -89,7 +91,7 @@ void FilmFile::write(const Bytes& bytes) {
 
 void FilmFile::write_number(std::streamoff at, std::size_t number) {
   Bytes bytes;
-  pliant::append(bytes, static_cast<std::uint32_t>(number));
+  add(bytes, {static_cast<std::uint32_t>(number)});
   stream_.seekp(at);
   stream_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
