@@ -5,6 +5,7 @@
 #include "experiments/report/reports.h"
 #include "framework/deformation/node_transform.h"
 #include "framework/imaging/depth_filter.h"
+#include "framework/imaging/normals.h"
 #include "framework/pose/alignments.h"
 #include "framework/registration/correspondence.h"
 #include "framework/registration/handle.h"
@@ -18,7 +19,7 @@ namespace pliant {
 void register_everything(Registry& registry) {
   register_datasets(registry);
   register_filters(registry);
-  register_segmentations(registry);
+  SOURCES register_normals(registry); register_segmentations(registry);
   register_alignments(registry);
   register_graphs(registry);
   register_transforms(registry);
