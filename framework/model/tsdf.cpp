@@ -11,7 +11,7 @@
 namespace pliant {
 namespace {
 
-constexpr std::size_t work_group = 64;    // work-items of kernels over bricks, tiles or pixels
+constexpr std::size_t work_group = 64;      // work-items of kernels over bricks, tiles or pixels
 constexpr std::size_t fusing_groups = 512;  // that take turns at the bricks to be fused
 
 void check(const Eigen::Isometry3d& pose) {
@@ -26,16 +26,23 @@ cl_int4 bricks_of(const TsdfGrid& grid) {
 std::size_t brick_count(const TsdfGrid& grid) { return grid.bricks().cast<std::size_t>().prod(); }
 
 std::size_t tiles_over(const PixelWindow& window) {
-  const auto along = [](int pixels) { return static_cast<std::size_t>((pixels + TsdfGrid::tile - 1) / TsdfGrid::tile); };
+  const auto along = [](int pixels) {
+    return static_cast<std::size_t>((pixels + TsdfGrid::tile - 1) / TsdfGrid::tile);
+  };
   return along(window.width) * along(window.height);
 }
 
-/// The camera whose image the window is.
-cl_float4 pinhole_in(const Camera& camera, const PixelWindow& window) {
-  Camera moved = camera;
-  moved.cx -= window.left;
-  moved.cy -= window.top;
-  return pinhole(moved);
+/// The whole tiles of the image that a window meets: so the window says nothing of where rays begin.
+PixelWindow whole_tiles(const PixelWindow& window) {
+  const auto first = [](int pixel) { return pixel / TsdfGrid::tile * TsdfGrid::tile; };
+  const auto last = [&](int end) { return first(end + TsdfGrid::tile - 1); };
+  const int left = first(window.left);
+  const int top = first(window.top);
+  return {left, top, last(window.left + window.width) - left, last(window.top + window.height) - top};
+}
+
+cl_int4 as_argument(const PixelWindow& window) {
+  return {{window.left, window.top, window.width, window.height}};
 }
 
 template <class T>
@@ -63,27 +70,26 @@ void Tsdf::clear() {
   device_.fill_zero(contents_, sizeof(cl_int) * brick_count(grid_));
 }
 
-void Tsdf::integrate(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model) {
+void Tsdf::integrate(const DepthMap& depth, const Camera& camera,
+                     const Eigen::Isometry3d& camera_from_model) {
   check(camera_from_model);
   const PixelWindow& window = depth.window;
   if (window.size() == 0) return;
-  const cl_int2 size{{window.width, window.height}};
   const cl_float16 placing = rows_of(camera_from_model * grid_.model_from_voxel());
-  const cl_float4 pixels = pinhole_in(camera, window);
   const auto truncation = static_cast<float>(grid_.truncation);
   const std::size_t tiles = tiles_over(window);
   make_room(bounds_, 2 * tiles);
   auto bound = tsdf_kernel(device_, embedded::framework_model_tsdf_fuse_cl, "bound_depth");
   auto find = tsdf_kernel(device_, embedded::framework_model_tsdf_fuse_cl, "find_bricks");
   auto fuse = tsdf_kernel(device_, embedded::framework_model_tsdf_fuse_cl, "fuse");
-  device_.run("integrate", bound, tiles, work_group, depth.depth.device(device_), static_cast<cl_int>(depth.stride), size,
-              bounds_.write_device(device_), found_);
-  device_.run("integrate", find, brick_count(grid_), work_group, bricks_of(grid_), placing, pixels, size, truncation,
-              bounds_.device(device_), contents_, found_);
+  device_.run("integrate", bound, tiles, work_group, depth.depth.device(device_),
+              static_cast<cl_int>(depth.stride), as_argument(window), bounds_.write_device(device_), found_);
+  device_.run("integrate", find, brick_count(grid_), work_group, bricks_of(grid_), placing, pinhole(camera),
+              as_argument(window), truncation, bounds_.device(device_), contents_, found_);
   const auto items = static_cast<std::size_t>(device_.work_group_size());
-  device_.run("integrate", fuse, fusing_groups * items, items, found_, bricks_of(grid_), placing, pixels,
-              cl_int4{{window.width, window.height, depth.stride, 0}}, truncation, static_cast<float>(max_weight_),
-              depth.depth.device(device_), distances_, weights_, contents_);
+  device_.run("integrate", fuse, fusing_groups * items, items, found_, bricks_of(grid_), placing,
+              pinhole(camera), as_argument(window), static_cast<cl_int>(depth.stride), truncation,
+              static_cast<float>(max_weight_), depth.depth.device(device_), distances_, weights_, contents_);
 }
 
 const SurfaceMap& Tsdf::raycast(const Camera& camera, const PixelWindow& window,
@@ -93,23 +99,24 @@ const SurfaceMap& Tsdf::raycast(const Camera& camera, const PixelWindow& window,
   view_.window = window;
   if (view_.points().size() != 3 * window.size())
     view_.map = {Array<float>(3 * window.size()), Array<float>(3 * window.size())};
-  const std::size_t tiles = tiles_over(window);
+  if (window.size() == 0) return view_;
+  const PixelWindow area = whole_tiles(window);
+  const std::size_t tiles = tiles_over(area);
   make_room(ranges_, 2 * tiles);
-  const cl_int2 size{{window.width, window.height}};
   const Eigen::Affine3d camera_from_voxel = camera_from_model * grid_.model_from_voxel();
   const cl_float16 back = rows_of(camera_from_voxel);
-  const cl_float4 pixels = pinhole_in(camera, window);
   auto clear = tsdf_kernel(device_, embedded::framework_model_tsdf_raycast_cl, "clear_ranges");
   auto bound = tsdf_kernel(device_, embedded::framework_model_tsdf_raycast_cl, "bound_rays");
   auto cast = tsdf_kernel(device_, embedded::framework_model_tsdf_raycast_cl, "raycast");
   const Buffer& ranges = ranges_.write_device(device_);
   device_.run("raycast", clear, tiles, work_group, static_cast<cl_int>(tiles), ranges);
-  device_.run("raycast", bound, brick_count(grid_), work_group, bricks_of(grid_), contents_, back, pixels, size, ranges);
+  device_.run("raycast", bound, brick_count(grid_), work_group, bricks_of(grid_), contents_, back,
+              pinhole(camera), as_argument(area), ranges);
   const auto items = static_cast<std::size_t>(device_.work_group_size());
-  device_.run("raycast", cast, tiles * items, items, distances_, bricks_of(grid_),
-              ranges, rows_of(camera_from_voxel.inverse()), back, pixels, size, static_cast<float>(grid_.voxel),
-              static_cast<float>(grid_.truncation), view_.map.points.write_device(device_),
-              view_.map.normals.write_device(device_));
+  device_.run("raycast", cast, tiles * items, items, distances_, bricks_of(grid_), ranges,
+              rows_of(camera_from_voxel.inverse()), back, pinhole(camera), as_argument(area),
+              as_argument(window), static_cast<float>(grid_.voxel), static_cast<float>(grid_.truncation),
+              view_.map.points.write_device(device_), view_.map.normals.write_device(device_));
   return view_;
 }
 
@@ -126,7 +133,8 @@ Mesh Tsdf::mesh() const {
   std::vector<float> values(grid_.voxels());
   const float step = static_cast<float>(grid_.truncation / TsdfGrid::steps);
   for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = distances[i] == 0 ? std::numeric_limits<float>::quiet_NaN() : step * static_cast<float>(distances[i]);
+    values[i] =
+        distances[i] == 0 ? std::numeric_limits<float>::quiet_NaN() : step * static_cast<float>(distances[i]);
   return marching_cubes({grid_.size, grid_.origin, grid_.voxel, values});
 }
 

@@ -12,7 +12,7 @@ namespace pliant {
 /// The distances and weights of a grid's voxels, x fastest.
 struct TsdfVoxels {
   std::vector<std::int16_t> distances;  ///< in parts of the truncation (TsdfGrid::steps); 0: unobserved
-  std::vector<std::uint8_t> weights;    ///< how many frames each distance is the mean of, at most the greatest
+  std::vector<std::uint8_t> weights;  ///< how many frames each distance is the mean of, at most the greatest
 };
 
 /// A truncated signed distance field on a dense grid [Newcombe et al., "KinectFusion: Real-time dense surface
@@ -29,7 +29,8 @@ class Tsdf : public ReferenceModel {
   /// greatest_weight. The device must outlive this. Throws DeviceError when it has no room for the voxels.
   Tsdf(Device& device, const TsdfGrid& grid, int max_weight);
 
-  void integrate(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model) override;
+  void integrate(const DepthMap& depth, const Camera& camera,
+                 const Eigen::Isometry3d& camera_from_model) override;
   const SurfaceMap& raycast(const Camera& camera, const PixelWindow& window,
                             const Eigen::Isometry3d& camera_from_model) override;
   Mesh mesh() const override;
@@ -44,10 +45,10 @@ class Tsdf : public ReferenceModel {
   TsdfGrid grid_;
   int max_weight_;
   Buffer distances_, weights_;
-  Buffer contents_;         // of each brick: see tsdf_grid.cl
-  Buffer found_;            // bricks to be fused
-  Array<float> bounds_;     // of depth, a tile of the map
-  Array<cl_int> ranges_;    // of depth, a tile of the view
+  Buffer contents_;       // of each brick: see tsdf_grid.cl
+  Buffer found_;          // bricks to be fused
+  Array<float> bounds_;   // of depth, a tile of the map
+  Array<cl_int> ranges_;  // of depth, a tile of the view
   SurfaceMap view_;
 };
 

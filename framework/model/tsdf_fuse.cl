@@ -1,6 +1,6 @@
-// Fuses a depth map into a truncated signed distance field. Compiled behind tsdf_grid.cl. `size`: of the map's
-// window. The reference computes the same, rounding by rounding: products and sums are joined where it says fma
-// and nowhere else.
+// Fuses a depth map into a truncated signed distance field. Compiled behind tsdf_grid.cl. `window`: the
+// map's. The reference computes the same, rounding by rounding: products and sums are joined where it says
+// fma and nowhere else.
 #pragma OPENCL FP_CONTRACT OFF
 
 #if WIDTH == 16
@@ -15,13 +15,13 @@
 
 // Least and greatest depth of each tile; the least is greater where there is none. Also empties the list that
 // find_bricks fills.
-kernel void bound_depth(global const float* depth, int stride, int2 size, global float* bounds, global int* found) {
-  const int2 tiles = tiles_over(size);
+kernel void bound_depth(global const float* depth, int stride, int4 window, global float* bounds,
+                        global int* found) {
+  const int2 tiles = tiles_over(window);
   const int tile = get_global_id(0);
   if (tile == 0) found[0] = 0;
   if (tile >= tiles.x * tiles.y) return;
-  global const float* corner =
-      depth + (HALO + tile / tiles.x * TILE) * stride + HALO + tile % tiles.x * TILE;
+  global const float* corner = depth + (HALO + tile / tiles.x * TILE) * stride + HALO + tile % tiles.x * TILE;
   Lanes least = NO_DEPTH, greatest = -NO_DEPTH;
   for (int row = 0; row < TILE; ++row) {
     for (int column = 0; column < TILE; column += WIDTH) {
@@ -55,14 +55,14 @@ bool is_told_of(Box box, bool is_observed, int4 tiles, int tile_columns, float t
 }
 
 // Lists the bricks that fuse() looks at: how many, then which; in any order, as each is fused apart.
-kernel void find_bricks(int4 bricks, float16 placing, float4 camera, int2 size, float truncation,
+kernel void find_bricks(int4 bricks, float16 placing, float4 camera, int4 window, float truncation,
                         global const float* bounds, global int* contents, global int* found) {
   const int index = get_global_id(0);
   if (index >= bricks.x * bricks.y * bricks.z) return;
   const Box box = box_of(brick_at(index, bricks), 0.0f, placing);
-  const int4 tiles = tiles_of(box, camera, size);
+  const int4 tiles = tiles_of(box, camera, window);
   const bool is_observed = contents[index] != 0;
-  if (is_told_of(box, is_observed, tiles, tiles_over(size).x, truncation, bounds)) {
+  if (is_told_of(box, is_observed, tiles, tiles_over(window).x, truncation, bounds)) {
     contents[index] = 0;  // fuse() says anew
     found[1 + atomic_inc(found)] = index;
   }
@@ -73,23 +73,27 @@ typedef struct {
   Truth is_known;
 } Seen;
 
-// What the map shows at places in its window: the depth between four pixels, of which those count that have
+// What the map shows at places in the image: the depth between four pixels, of which those count that have
 // about the depth of the nearest one.
-Seen depth_at(Lanes u, Lanes v, Truth in_front, int2 size, int stride, float truncation, global const float* depth) {
+Seen depth_at(Lanes u, Lanes v, Truth in_front, int4 window, int stride, float truncation,
+              global const float* depth) {
   const Lanes left = floor(u), top = floor(v), a = u - left, b = v - top;
   const Truth is_right = a >= (Lanes)0.5f, is_lower = b >= (Lanes)0.5f;
   const Lanes column = left + select((Lanes)0, (Lanes)1, is_right);
   const Lanes row = top + select((Lanes)0, (Lanes)1, is_lower);
-  const Truth in_window = in_front && column >= (Lanes)0 && row >= (Lanes)0 && column < (Lanes)size.x &&
-                          row < (Lanes)size.y;
+  const int2 end = window.xy + window.zw;
+  const Truth in_window = in_front && column >= (Lanes)window.x && row >= (Lanes)window.y &&
+                          column < (Lanes)end.x && row < (Lanes)end.y;
   int at[WIDTH];
-  STORE_INT((TO_INT(WHERE(in_window, top)) + HALO) * stride + TO_INT(WHERE(in_window, left)) + HALO, at);
+  const int first = (HALO - window.y) * stride + HALO - window.x;
+  STORE_INT(select((Truth)0, TO_INT(top) * stride + TO_INT(left) + first, in_window), at);
   float d00[WIDTH], d10[WIDTH], d01[WIDTH], d11[WIDTH];
   for (int lane = 0; lane < WIDTH; ++lane) d00[lane] = depth[at[lane]];
   for (int lane = 0; lane < WIDTH; ++lane) d10[lane] = depth[at[lane] + 1];
   for (int lane = 0; lane < WIDTH; ++lane) d01[lane] = depth[at[lane] + stride];
   for (int lane = 0; lane < WIDTH; ++lane) d11[lane] = depth[at[lane] + stride + 1];
-  const Lanes nearest = select(select(LOAD(d00), LOAD(d10), is_right), select(LOAD(d01), LOAD(d11), is_right), is_lower);
+  const Lanes nearest =
+      select(select(LOAD(d00), LOAD(d10), is_right), select(LOAD(d01), LOAD(d11), is_right), is_lower);
 #define NEAR(values) select(nearest, LOAD(values), fabs(LOAD(values) - nearest) < (Lanes)truncation)
   const Lanes upper = fma(a, NEAR(d10) - NEAR(d00), NEAR(d00));
   const Lanes lower = fma(a, NEAR(d11) - NEAR(d01), NEAR(d01));
@@ -97,10 +101,10 @@ Seen depth_at(Lanes u, Lanes v, Truth in_front, int2 size, int stride, float tru
   return seen;
 }
 
-// A work-group fuses one brick after another. `map`: width and height of the window, stride.
-kernel void fuse(global const int* found, int4 bricks, float16 placing, float4 camera, int4 map, float truncation,
-                 float max_weight, global const float* depth, global short* distances, global uchar* weights,
-                 global int* contents) {
+// A work-group fuses one brick after another.
+kernel void fuse(global const int* found, int4 bricks, float16 placing, float4 camera, int4 window,
+                 int stride, float truncation, float max_weight, global const float* depth,
+                 global short* distances, global uchar* weights, global int* contents) {
   const int2 pitch = {bricks.x * BRICK_X, bricks.y * BRICK_Y};
   const Lanes scale = STEPS / truncation;
   for (int n = get_group_id(0); n < found[0]; n += get_num_groups(0)) {
@@ -117,13 +121,14 @@ kernel void fuse(global const int* found, int4 bricks, float16 placing, float4 c
       const Lanes inverse = 1.0f / pz;
       const Lanes u = fma((Lanes)camera.x, px * inverse, (Lanes)camera.z);
       const Lanes v = fma((Lanes)camera.y, py * inverse, (Lanes)camera.w);
-      const Seen seen = depth_at(u, v, pz > (Lanes)0, map.xy, map.z, truncation, depth);
+      const Seen seen = depth_at(u, v, pz > (Lanes)0, window, stride, truncation, depth);
       const Lanes ahead = seen.depth - pz;  // mm from the voxel to the surface, along the axis
 
       const size_t at = voxel.x + pitch.x * (voxel.y + (size_t)pitch.y * voxel.z);
       const Lanes old = LOAD_DISTANCES(distances + at);
       const Truth was_observed = old != (Lanes)0;
-      const Truth is_told = seen.is_known && ahead >= (Lanes)-truncation && (was_observed || ahead < (Lanes)truncation);
+      const Truth is_told =
+          seen.is_known && ahead >= (Lanes)-truncation && (was_observed || ahead < (Lanes)truncation);
       Lanes now = old;
       if (ANY(is_told)) {
         const Lanes weight = LOAD_DISTANCES(weights + at);

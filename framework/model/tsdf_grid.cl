@@ -1,8 +1,9 @@
-// What kernels over a truncated signed distance field share. Voxel (i, j, k) lies at i + size.x (j + size.y k);
-// bricks of BRICK_X x BRICK_Y x BRICK_Z voxels and tiles of TILE x TILE pixels lie alike. `distances`: parts of
-// the truncation, STEPS of them, positive before the surface; 0 where nothing was observed. `contents` of a
-// brick: OBSERVED when any voxel was, INSIDE when any lies behind the surface. Transforms are float16: three
-// rows of x, y, z and what is added. `camera`: fx, fy, and the principal point from the window's corner.
+// What kernels over a truncated signed distance field share. Voxel (i, j, k) lies at i + size.x (j + size.y
+// k); bricks of BRICK_X x BRICK_Y x BRICK_Z voxels and tiles of TILE x TILE pixels lie alike. `distances`:
+// parts of the truncation, STEPS of them, positive before the surface; 0 where nothing was observed.
+// `contents` of a brick: OBSERVED when any voxel was, INSIDE when any lies behind the surface. Transforms are
+// float16: three rows of x, y, z and what is added. `camera`: fx, fy, cx, cy. `window`: left, top, width and
+// height, in pixels.
 
 #define OBSERVED 1
 #define INSIDE 2
@@ -28,20 +29,19 @@ Box box_of(int3 brick, float more, float16 m) {
   return box;
 }
 
-// The tiles that may show the box or pixels beside it: first column and row, last column and row; none: the
-// last ones are smaller.
-int4 tiles_of(Box box, float4 camera, int2 size) {
+// The tiles of a window that may show the box or pixels beside it: first column and row, last column and row;
+// none: the last ones are smaller.
+int4 tiles_of(Box box, float4 camera, int4 window) {
   const float near = fmax(box.centre.z - box.reach.z, 1e-3f), far = box.centre.z + box.reach.z;
   if (far <= 1e-3f) return (int4)(0, 0, -1, -1);
   const float2 low = box.centre.xy - box.reach.xy, high = box.centre.xy + box.reach.xy;
   // The side of a box looks farthest from the axis at its near end, and nearest to it at its far one.
-  const float2 first = low / select((float2)far, (float2)near, low < 0.0f) * camera.xy + camera.zw;
-  const float2 last = high / select((float2)far, (float2)near, high > 0.0f) * camera.xy + camera.zw;
-  const float2 end = convert_float2(size);
-  if (any(first >= end) || any(last <= -1.0f)) return (int4)(0, 0, -1, -1);
-  const int2 first_pixel = convert_int2_rtn(clamp(first - 0.01f, (float2)0.0f, end - 1.0f));
-  const int2 last_pixel = convert_int2_rtn(clamp(last + 1.01f, (float2)0.0f, end - 1.0f));
-  return (int4)(first_pixel / TILE, last_pixel / TILE);
+  const float2 first = low / select((float2)far, (float2)near, low < 0.0f) * camera.xy + camera.zw - 0.01f;
+  const float2 last = high / select((float2)far, (float2)near, high > 0.0f) * camera.xy + camera.zw + 1.01f;
+  const float2 begin = convert_float2(window.xy), end = convert_float2(window.xy + window.zw);
+  if (any(first >= end) || any(last < begin)) return (int4)(0, 0, -1, -1);
+  return (int4)((convert_int2_rtn(clamp(first, begin, end - 1.0f)) - window.xy) / TILE,
+                (convert_int2_rtn(clamp(last, begin, end - 1.0f)) - window.xy) / TILE);
 }
 
-int2 tiles_over(int2 size) { return (size + TILE - 1) / TILE; }
+int2 tiles_over(int4 window) { return (window.zw + TILE - 1) / TILE; }

@@ -57,7 +57,8 @@ cl_float16 rows_of(const Eigen::Affine3d& transform) {
 TsdfGrid grid_before_camera(int resolution, double side, double distance, double truncation) {
   const double voxel = side / resolution;
   const double first = (voxel - side) / 2;
-  return {Eigen::Vector3i::Constant(resolution), {first, first, distance + voxel / 2}, voxel, truncation * voxel};
+  return {
+      Eigen::Vector3i::Constant(resolution), {first, first, distance + voxel / 2}, voxel, truncation * voxel};
 }
 
 TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, double truncation) {
@@ -85,12 +86,12 @@ TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, doub
 }
 
 cl::Kernel tsdf_kernel(Device& device, std::string_view source, const std::string& name) {
-  static const std::string options = fmt::format(
-      "-DHALO={} -DNO_DEPTH={:e}f -DBRICK_X={} -DBRICK_Y={} -DBRICK_Z={} -DTILE={} -DSTEPS={}.0f", DepthMap::halo,
-      DepthMap::no_depth, TsdfGrid::brick_width, TsdfGrid::brick_height, TsdfGrid::brick_depth, TsdfGrid::tile,
-      TsdfGrid::steps);
-  return device.kernel(with_surface_map(std::string(embedded::framework_model_tsdf_grid_cl).append(source)), name,
-                       options);
+  static const std::string options =
+      fmt::format("-DHALO={} -DNO_DEPTH={:e}f -DBRICK_X={} -DBRICK_Y={} -DBRICK_Z={} -DTILE={} -DSTEPS={}.0f",
+                  DepthMap::halo, DepthMap::no_depth, TsdfGrid::brick_width, TsdfGrid::brick_height,
+                  TsdfGrid::brick_depth, TsdfGrid::tile, TsdfGrid::steps);
+  return device.kernel(with_surface_map(std::string(embedded::framework_model_tsdf_grid_cl).append(source)),
+                       name, options);
 }
 
 }  // namespace pliant

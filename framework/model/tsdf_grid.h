@@ -23,8 +23,8 @@ struct TsdfGrid {
   static constexpr int brick_width = 16, brick_height = 8, brick_depth = 8;
   /// Pixels along each side of the squares for which depth is bounded.
   static constexpr int tile = 16;
-  /// A distance is kept as a whole number of so many parts of the truncation, positive before the surface; as 0
-  /// where nothing was observed.
+  /// A distance is kept as a whole number of so many parts of the truncation, positive before the surface; as
+  /// 0 where nothing was observed.
   static constexpr int steps = 32767;
 
   std::size_t voxels() const;
@@ -41,13 +41,14 @@ cl_float16 rows_of(const Eigen::Affine3d& transform);
 /// `resolution`: a multiple of TsdfGrid::brick_width. `truncation` in voxels, here and below.
 TsdfGrid grid_before_camera(int resolution, double side, double distance, double truncation);
 
-/// The smallest grid around the points of a surface and `margin` times their longest extent on each side; that
-/// longest side has `resolution` voxels. The hundredth of the points that lies farthest out along an axis is
-/// not waited for: a few wrong ones among those would take the voxels from the rest. Throws DataError where
-/// there is no point. Waits for the device.
+/// The smallest grid around the points of a surface and `margin` times their longest extent on each side;
+/// that longest side has `resolution` voxels. The hundredth of the points that lies farthest out along an
+/// axis is not waited for: a few wrong ones among those would take the voxels from the rest. Throws DataError
+/// where there is no point. Waits for the device.
 TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, double truncation);
 
-/// A kernel over such a grid, from a source that is compiled behind lanes.cl, surface_map.cl and tsdf_grid.cl.
+/// A kernel over such a grid, from a source that is compiled behind lanes.cl, surface_map.cl and
+/// tsdf_grid.cl.
 cl::Kernel tsdf_kernel(Device& device, std::string_view source, const std::string& name);
 
 }  // namespace pliant

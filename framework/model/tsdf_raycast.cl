@@ -1,5 +1,6 @@
-// What a camera sees of a truncated signed distance field. Compiled behind tsdf_grid.cl. `size`: of the window
-// that is asked for. `ranges`: bits of the depths between which each tile's rays can meet the surface.
+// What a camera sees of a truncated signed distance field. Compiled behind tsdf_grid.cl. `area`: a
+// window that begins and ends with whole tiles of the image. `ranges`: bits of the depths between which each
+// tile's rays can meet the surface.
 
 kernel void clear_ranges(int count, global int* ranges) {
   const int tile = get_global_id(0);
@@ -10,16 +11,16 @@ kernel void clear_ranges(int count, global int* ranges) {
 
 // Widens the ranges of the tiles that may show what is behind the surface in a brick. Bits of depths that are
 // not negative are ordered as the depths are.
-kernel void bound_rays(int4 bricks, global const int* contents, float16 placing, float4 camera, int2 size,
+kernel void bound_rays(int4 bricks, global const int* contents, float16 placing, float4 camera, int4 area,
                        global volatile int* ranges) {
   const int index = get_global_id(0);
   if (index >= bricks.x * bricks.y * bricks.z || !(contents[index] & INSIDE)) return;
   const Box box = box_of(brick_at(index, bricks), 1.0f, placing);
-  const int4 tiles = tiles_of(box, camera, size);
+  const int4 tiles = tiles_of(box, camera, area);
   const int near = as_int(fmax(box.centre.z - box.reach.z, 0.0f)), far = as_int(box.centre.z + box.reach.z);
   for (int row = tiles.y; row <= tiles.w; ++row) {
     for (int column = tiles.x; column <= tiles.z; ++column) {
-      const int tile = row * tiles_over(size).x + column;
+      const int tile = row * tiles_over(area).x + column;
       if (ranges[2 * tile] > near) atomic_min(ranges + 2 * tile, near);
       if (ranges[2 * tile + 1] < far) atomic_max(ranges + 2 * tile + 1, far);
     }
@@ -109,9 +110,10 @@ Sample interpolate(Pair p00, Pair p10, Pair p01, Pair p11, Cell cell) {
   const Lanes v0 = mixed(v00, v10, f.y), v1 = mixed(v01, v11, f.y);
   const Lanes along_x = mixed(mixed(p00.second - p00.first, p10.second - p10.first, f.y),
                               mixed(p01.second - p01.first, p11.second - p11.first, f.y), f.z);
-  const Sample sample = {mixed(v0, v1, f.z),
-                         {along_x, mixed(v10 - v00, v11 - v01, f.z), v1 - v0},
-                         cell.in_grid && both_known(p00) && both_known(p10) && both_known(p01) && both_known(p11)};
+  const Sample sample = {
+      mixed(v0, v1, f.z),
+      {along_x, mixed(v10 - v00, v11 - v01, f.z), v1 - v0},
+      cell.in_grid && both_known(p00) && both_known(p10) && both_known(p01) && both_known(p11)};
   return sample;
 }
 
@@ -119,7 +121,8 @@ Sample sample_at(Field field, Vector p) {
   const Cell cell = cell_of(field, p);
   const int row = field.size.x, layer = field.layer;
   return interpolate(gather_pair(field, cell.corner), gather_pair(field, cell.corner + row),
-                     gather_pair(field, cell.corner + layer), gather_pair(field, cell.corner + layer + row), cell);
+                     gather_pair(field, cell.corner + layer), gather_pair(field, cell.corner + layer + row),
+                     cell);
 }
 
 // The same with the gradient of the field's central differences, where all their voxels were observed.
@@ -135,11 +138,11 @@ Sample smooth_sample_at(Field field, Vector p) {
   Lanes x[4];
   Lanes y_before, y_behind, z_before, z_behind;
   // Along x: the rows of the cell's edges, from the voxel before to the one behind.
-#define DIFFERENCE(pair, at, result)                                                                   \
-  {                                                                                                    \
-    const Lanes before = gather_pair(field, (at) - 1).first, behind = gather_pair(field, (at) + 1).second; \
-    all_known = all_known && before != (Lanes)0 && behind != (Lanes)0;                                 \
-    result = mixed(pair.second - before, behind - pair.first, f.x);                                    \
+#define DIFFERENCE(pair, at, result)                                                                     \
+  {                                                                                                      \
+    const Lanes before = gather_pair(field, (at)-1).first, behind = gather_pair(field, (at) + 1).second; \
+    all_known = all_known && before != (Lanes)0 && behind != (Lanes)0;                                   \
+    result = mixed(pair.second - before, behind - pair.first, f.x);                                      \
   }
   DIFFERENCE(p00, c, x[0])
   DIFFERENCE(p10, c + row, x[1])
@@ -173,10 +176,11 @@ typedef struct {
 } Crossing;
 
 // Follows rays until they pass from before the surface to behind it. A ray that comes out of the surface from
-// behind ends there, having seen nothing. `voxel` and `truncation`: mm along the axis. Where nothing was observed
-// steps are as long as the truncation: as thick is what was observed on either side of a surface. One that leads
-// to behind a surface is taken back, and that way gone in steps of a voxel.
-Crossing march(Field field, Vector from, Vector direction, float near, float far, Lanes voxel, Lanes truncation) {
+// behind ends there, having seen nothing. `voxel` and `truncation`: mm along the axis. Where nothing was
+// observed steps are as long as the truncation: as thick is what was observed on either side of a surface.
+// One that leads to behind a surface is taken back, and that way gone in steps of a voxel.
+Crossing march(Field field, Vector from, Vector direction, float near, float far, Lanes voxel,
+               Lanes truncation) {
   Crossing crossing = {0, 0, 0, 0, 0};
   const Lanes reach = 0.75f / STEPS * truncation;
   Lanes z = near, last = 0, last_z = near, careful_to = near;
@@ -209,8 +213,8 @@ Lanes improved(Lanes z, Sample sample, Vector direction, Crossing crossing, Lane
   return clamp(z - sample.value / slope, crossing.front - voxel, crossing.behind + voxel);
 }
 
-// What WIDTH pixels from (u, v) on see, between two depths. `placing`: from the camera's frame to voxels. `back`:
-// the same from voxels to the camera's frame.
+// What WIDTH pixels from (u, v) on see, between two depths. `placing`: from the camera's frame to voxels.
+// `back`: the same from voxels to the camera's frame.
 void cast(Field field, float near, float far, float16 placing, float16 back, float4 camera, int u, int v,
           float voxel, float truncation, Vector* point, Vector* normal) {
   const Vector ray = {((Lanes)(u - camera.z) + LANE_OFFSETS) / camera.x, (v - camera.w) / camera.y, 1};
@@ -235,24 +239,37 @@ void cast(Field field, float near, float far, float16 placing, float16 back, flo
   *normal = only(is_seen, scaled(turned, 1.0f / sqrt(inner(turned, turned))));
 }
 
-// A work-group casts the rays of a tile.
+// Stores what the pixels of a row from (u, v) on have, those of them that are in the window.
+void store_in_window(Vector vectors, int u, int v, int4 window, global float* map) {
+  const int offset = (v - window.y) * window.z, first = max(window.x - u, 0);
+  const int count = min(window.x + window.z - u, WIDTH);
+  global float* to = map + 3 * (offset + (u - window.x));
+  if (first == 0) {
+    store_vectors(vectors, count, to);
+    return;
+  }
+  float x[WIDTH], y[WIDTH], z[WIDTH];
+  STORE_VECTOR(vectors, x, y, z);
+  for (int lane = first; lane < count; ++lane) vstore3((float3)(x[lane], y[lane], z[lane]), lane, to);
+}
+
+// A work-group casts the rays of a tile. `window`: the part of the area that is asked for.
 kernel void raycast(global const short* distances, int4 bricks, global const int* ranges, float16 placing,
-                    float16 back, float4 camera, int2 size, float voxel, float truncation, global float* points,
-                    global float* normals) {
-  const int tile = get_group_id(0), columns = tiles_over(size).x;
-  const int2 corner = {tile % columns * TILE, tile / columns * TILE};
+                    float16 back, float4 camera, int4 area, int4 window, float voxel, float truncation,
+                    global float* points, global float* normals) {
+  const int tile = get_group_id(0), columns = tiles_over(area).x;
+  const int2 corner = area.xy + (int2)(tile % columns, tile / columns) * TILE;
   const Field field = {distances, bricks.xyz * (int3)(BRICK_X, BRICK_Y, BRICK_Z),
                        bricks.x * BRICK_X * bricks.y * BRICK_Y};
   const bool is_empty = ranges[2 * tile] == INT_MAX;
   const float near = as_float(ranges[2 * tile]), far = as_float(ranges[2 * tile + 1]);
   for (int part = get_local_id(0); part < TILE * TILE / WIDTH; part += get_local_size(0)) {
     const int u = corner.x + part * WIDTH % TILE, v = corner.y + part * WIDTH / TILE;
-    if (u >= size.x || v >= size.y) continue;
+    if (v < window.y || v >= window.y + window.w || u + WIDTH <= window.x || u >= window.x + window.z)
+      continue;
     Vector point = {0, 0, 0}, normal = {0, 0, 0};
-    if (!is_empty)
-      cast(field, near, far, placing, back, camera, u, v, voxel, truncation, &point, &normal);
-    const size_t pixel = (size_t)v * size.x + u;
-    store_vectors(point, size.x - u, points + 3 * pixel);
-    store_vectors(normal, size.x - u, normals + 3 * pixel);
+    if (!is_empty) cast(field, near, far, placing, back, camera, u, v, voxel, truncation, &point, &normal);
+    store_in_window(point, u, v, window, points);
+    store_in_window(normal, u, v, window, normals);
   }
 }
