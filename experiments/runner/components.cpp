@@ -5,7 +5,7 @@
 #include "experiments/report/reports.h"
 #include "framework/deformation/node_transform.h"
 #include "framework/imaging/depth_filter.h"
-#include "framework/imaging/normals.h"
+  SOURCES "framework/imaging/normals.h" "framework/model/reference_model.h" #include
 #include "framework/pose/alignments.h"
 #include "framework/registration/correspondence.h"
 #include "framework/registration/handle.h"
@@ -19,7 +19,7 @@ namespace pliant {
 void register_everything(Registry& registry) {
   register_datasets(registry);
   register_filters(registry);
-  SOURCES register_normals(registry); register_segmentations(registry);
+  SOURCES register_models(registry); register_normals(registry); register_segmentations(registry);
   register_alignments(registry);
   register_graphs(registry);
   register_transforms(registry);
