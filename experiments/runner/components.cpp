@@ -7,6 +7,7 @@
 #include "framework/imaging/depth_filter.h"
   SOURCES "framework/imaging/normals.h" "framework/model/reference_model.h" #include
 #include "framework/pose/alignments.h"
+#include "framework/pose/pose_estimator.h"
 #include "framework/registration/correspondence.h"
 #include "framework/registration/handle.h"
 #include "framework/segmentation/segmentations.h"
@@ -21,6 +22,7 @@ void register_everything(Registry& registry) {
   register_filters(registry);
   SOURCES register_models(registry); register_normals(registry); register_segmentations(registry);
   register_alignments(registry);
+  register_pose_estimators(registry);
   register_graphs(registry);
   register_transforms(registry);
   register_samplers(registry);
