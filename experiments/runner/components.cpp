@@ -5,7 +5,8 @@
 #include "experiments/report/reports.h"
 #include "framework/deformation/node_transform.h"
 #include "framework/imaging/depth_filter.h"
-  SOURCES "framework/imaging/normals.h" "framework/model/reference_model.h" #include
+#include "framework/imaging/normals.h"
+#include "framework/model/reference_model.h"
 #include "framework/pose/alignments.h"
 #include "framework/pose/pose_estimator.h"
 #include "framework/registration/correspondence.h"
@@ -20,7 +21,9 @@ namespace pliant {
 void register_everything(Registry& registry) {
   register_datasets(registry);
   register_filters(registry);
-  SOURCES register_models(registry); register_normals(registry); register_segmentations(registry);
+  register_normals(registry);
+  register_segmentations(registry);
+  register_models(registry);
   register_alignments(registry);
   register_pose_estimators(registry);
   register_graphs(registry);
