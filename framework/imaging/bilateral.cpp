@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "framework/imaging/bilateral.cl.embed.h"
 #include "framework/imaging/depth_kernel.h"
 
 namespace pliant {
@@ -60,27 +61,29 @@ double median_depth(const DepthMap& map) {
   return median(std::move(depths));
 }
 
+/// Of a Gaussian as a power of two, which the kernel works with: -log2 of the weight.
+float exponent(double distance, double sigma) {
+  return static_cast<float>(distance * distance / (2 * sigma * sigma) * std::numbers::log2e);
+}
+
 }  // namespace
 
 BilateralFilter::BilateralFilter(double sigma_space, double sigma_depth, int radius)
-    : sigma_space_(sigma_space), sigma_depth_(sigma_depth), radius_(radius) {}
-
-std::optional<DepthMap> BilateralFilter::filter(Device& device, const DepthMap& map, const Camera&) const {
-  // The kernel works with powers of two.
-  const auto exponent = [](double distance, double sigma) {
-    return static_cast<float>(distance * distance / (2 * sigma * sigma) * std::numbers::log2e);
-  };
+    : sigma_space_(sigma_space), sigma_depth_(sigma_depth), radius_(radius) {
   std::vector<float> steps;
   for (int dv = -radius_; dv <= radius_; ++dv)
     for (int du = -radius_; du <= radius_; ++du) steps.push_back(exponent(std::hypot(du, dv), sigma_space_));
-  const Array<float> window(std::move(steps));
+  steps_ = Array<float>(std::move(steps));
+}
 
+std::optional<DepthMap> BilateralFilter::filter(Device& device, const DepthMap& map, const Camera&) const {
+  static const std::string source = with_depth_map(embedded::framework_imaging_bilateral_cl);
   DepthMap filtered(map.window);
-  auto kernel = depth_kernel(device, "bilateral");
+  auto kernel = device.kernel(source, "bilateral", depth_map_options());
   const auto width = static_cast<std::size_t>(device.width());
   device.run("filter", kernel, map.depth.size() / width, 64, map.depth.device(device),
              static_cast<cl_int>(map.stride), cl_int2{{map.window.width, map.window.height}},
-             static_cast<cl_int>(radius_), window.device(device), exponent(1, sigma_depth_),
+             static_cast<cl_int>(radius_), steps_.device(device), exponent(1, sigma_depth_),
              filtered.depth.write_device(device));
   return filtered;
 }

@@ -1,18 +1,12 @@
 #include "framework/imaging/depth_map.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
 
-#include "framework/device/lanes.h"
-#include "framework/imaging/depth_kernel.h"
-#include "framework/imaging/depth_map.cl.embed.h"
+#include "framework/imaging/plane_fit.h"
 
 namespace pliant {
 namespace {
-
-constexpr std::size_t group = 64;
 
 /// Throws std::invalid_argument when mask and depth differ in size.
 const Frame& checked(const Frame& frame) {
@@ -23,19 +17,6 @@ const Frame& checked(const Frame& frame) {
 }
 
 int round_up(int value, int step) { return (value + step - 1) / step * step; }
-
-}  // namespace
-
-cl::Kernel depth_kernel(Device& device, const std::string& name) {
-  static const std::string source = with_lanes(embedded::framework_imaging_depth_map_cl);
-  static const std::string options = fmt::format(
-      "-DHALO={} -DNO_DEPTH={:e}f -DFEWEST_POINTS={} -DFLATTEST={:e}f -DWIDEST={} -DEDGE_ON={:e}f",
-      DepthMap::halo, DepthMap::no_depth, fewest_plane_points, flattest_spread, widest_normal_radius,
-      edge_on);
-  return device.kernel(source, name, options);
-}
-
-namespace {
 
 /// is_depth without a branch: compilers make vectors of loops over it.
 bool has_depth(float depth) {
@@ -81,20 +62,26 @@ DepthMap::DepthMap(const PixelWindow& window)
       stride(round_up(window.width, halo) + 2 * halo),
       depth(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows())) {}
 
-DepthMap::DepthMap(const Frame& frame) : DepthMap(window_of_depth(checked(frame))) {
-  std::vector<float> values(depth.size(), no_depth);
+DepthMap::DepthMap(const Frame& frame) : DepthMap(window_of_depth(checked(frame))) { take(frame); }
+
+void DepthMap::take(const Frame& frame, float farthest) {
+  checked(frame);
+  std::vector<float>& values = depth.write_host();
+  std::fill(values.data(), values.data() + offset(0, 0), no_depth);
   for (int row = 0; row < window.height; ++row) {
     float* to = values.data() + offset(0, row);
     const std::size_t begin =
         static_cast<std::size_t>(window.top + row) * static_cast<std::size_t>(frame.depth.width()) +
         static_cast<std::size_t>(window.left);
     const float* given = frame.depth.data() + begin;
-    for (int u = 0; u < window.width; ++u) to[u] = has_depth(given[u]) ? given[u] : no_depth;
+    for (int u = 0; u < window.width; ++u)
+      to[u] = has_depth(given[u]) && given[u] <= farthest ? given[u] : no_depth;
+    std::fill(to + window.width, to + stride, no_depth);
     if (frame.mask.empty()) continue;
     const std::uint8_t* mask = frame.mask.data() + begin;
     for (int u = 0; u < window.width; ++u) to[u] = mask[u] != 0 ? to[u] : no_depth;
   }
-  depth = Array<float>(std::move(values));
+  std::fill(values.data() + offset(0, window.height), values.data() + values.size(), no_depth);
 }
 
 DepthImage to_image(const DepthMap& map, const Camera& camera) {
@@ -123,17 +110,14 @@ std::vector<int> pixels_with_depth(const DepthMap& map) {
   return pixels;
 }
 
+SurfaceMap unwritten_surface(const Camera& camera, const PixelWindow& window) {
+  return {camera, window, {Array<float>(3 * window.size()), Array<float>(3 * window.size())}};
+}
+
 SurfaceMap make_surface_map(Device& device, const DepthMap& map, const Camera& camera, int radius,
                             float depth_step) {
-  const PixelWindow& window = map.window;
-  SurfaceMap surface(camera, window, {Array<float>(3 * window.size()), Array<float>(3 * window.size())});
-  const int vectors = round_up(window.width, device.width()) / device.width();
-  auto kernel = depth_kernel(device, "surface");
-  device.run("surface", kernel, static_cast<std::size_t>(vectors) * static_cast<std::size_t>(window.height),
-             group, map.depth.device(device), static_cast<cl_int>(map.stride),
-             cl_int2{{window.width, window.height}}, cl_int2{{window.left, window.top}}, pinhole(camera),
-             static_cast<cl_int>(radius), depth_step, surface.map.points.write_device(device),
-             surface.map.normals.write_device(device));
+  SurfaceMap surface = unwritten_surface(camera, map.window);
+  PlaneFit(radius, depth_step).write(device, map, surface);
   return surface;
 }
 

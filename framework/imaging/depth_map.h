@@ -29,6 +29,10 @@ struct DepthMap {
   /// size.
   explicit DepthMap(const Frame& frame);
 
+  /// Puts what a frame shows in the window in place of what was there, without depths beyond `farthest` mm.
+  /// The window lies within the frame. Throws std::invalid_argument when mask and depth differ in size.
+  void take(const Frame& frame, float farthest = no_depth);
+
   /// Of a pixel by its place in the window.
   std::size_t offset(int column, int row) const {
     return static_cast<std::size_t>(row + halo) * static_cast<std::size_t>(stride) +
@@ -45,6 +49,9 @@ std::vector<int> pixels_with_depth(const DepthMap& map);
 
 /// Widest window that fits into the halo.
 inline constexpr int max_window_radius = DepthMap::halo;
+
+/// A surface that a device will write.
+SurfaceMap unwritten_surface(const Camera& camera, const PixelWindow& window);
 
 /// What make_surface_image of surface.h does, on the device, in the map's window. Only enqueues. `radius` is
 /// at most max_window_radius.

@@ -13,8 +13,10 @@ namespace pliant {
 /// What the rigid tracking of a frame came to.
 struct PoseEstimate {
   Eigen::Isometry3d target_from_source = Eigen::Isometry3d::Identity();  ///< mm
-  int samples = 0;        ///< points of the source that were matched
-  int inliers = 0;        ///< of them, how many have an accepted match
+  // Of the last matching:
+  int samples = 0;        ///< points of the source
+  int landed = 0;         ///< of them, how many meet a point of the target at their pixel
+  int inliers = 0;        ///< of these, how many are an accepted match
   double mean_error = 0;  ///< mm, root mean square distance of the inliers to the planes of their matches
   /// Least eigenvalue over the greatest of the normal equations, turns measured in mm at the source's extent:
   /// near 0 where the surface may slide or turn along itself.

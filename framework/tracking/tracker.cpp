@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "framework/core/stopwatch.h"
 
 namespace pliant {
@@ -29,7 +31,9 @@ FrameRecord Tracker::track(const Frame& frame) {
   check(frame, rig_, fmt::format("frame {}", record.number));
   device_.take_stage_times();  // of whatever came before
   if (has_model() || find_object(frame, record)) {
-    timed(record.time_ms, "upload", [&] { return preprocessor_->process(frame); });
+    const Stopwatch upload;
+    preprocess(frame);
+    record.time_ms["upload"] = upload.milliseconds();
     if (has_model())
       follow(record);
     else
@@ -46,15 +50,24 @@ FrameRecord Tracker::track(const Frame& frame) {
 bool Tracker::find_object(const Frame& frame, FrameRecord& record) {
   Frame cut = frame;
   cut.depth = cut_depth(frame.depth, method_.acquisition.farthest());
-  const auto region =
-      timed(record.time_ms, "segmentation", [&] { return method_.segmentation->find(cut, rig_); });
-  if (!region)
+  auto region = timed(record.time_ms, "segmentation", [&] { return method_.segmentation->find(cut, rig_); });
+  if (region) cut_to(*region, cut);
+  if (!region) {
     record.reason = "the object is not found";
-  else if (!shows_depth(cut, *region))
+  } else if (!shows_depth(cut, region->window)) {
     record.reason = "there is no depth";
-  else
-    preprocessor_.emplace(device_, rig_, method_.acquisition, *region);
+  } else {
+    region_ = *std::move(region);
+    preprocessor_.emplace(device_, rig_, method_.acquisition, region_.window);
+  }
   return record.reason.empty();
+}
+
+void Tracker::preprocess(const Frame& frame) {
+  if (region_.mask.empty()) return preprocessor_->process(frame);
+  Frame cut = frame;
+  cut_to(region_, cut);
+  preprocessor_->process(cut);
 }
 
 void Tracker::begin_model(FrameRecord& record) {

@@ -37,6 +37,8 @@ class Tracker {
 
  private:
   bool find_object(const Frame& frame, FrameRecord& record);
+  void preprocess(const Frame& frame);
+  void preprocess(const Frame& frame);
   void begin_model(FrameRecord& record);
   void follow(FrameRecord& record);
   void fuse();
@@ -44,7 +46,9 @@ class Tracker {
   const TrackingMethod& method_;
   Rig rig_;
   Device& device_;
-  std::optional<Preprocessor> preprocessor_;  // once the region is known
+  Region region_;                             // once it is known
+  Region region_;                             // once it is known
+  std::optional<Preprocessor> preprocessor_;  // likewise
   std::unique_ptr<PoseEstimator> pose_;
   std::unique_ptr<ReferenceModel> model_;
   const SurfaceMap* model_view_ = nullptr;

@@ -1,7 +1,8 @@
 // A registration as a scene: each layer can be shown or not, and what moves follows the steps.
 import {
   AmbientLight, BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, DoubleSide, Group,
-  LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Points, PointsMaterial, Scene, SRGBColorSpace, Vector3,
+  Line, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Points, PointsMaterial, Scene, SRGBColorSpace,
+  Vector3,
 } from "three";
 import { errorColor } from "./error_colors.js";
 import { integersOf, positionsOf, stepReader } from "./view_data.js";
