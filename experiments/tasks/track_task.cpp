@@ -47,7 +47,7 @@ class TrackTask : public Task {
       Tracker tracker(method, stream->rig(), workbench.device(run.values));
       TrackSummary summary;
       TrackTruth truth(*stream);
-      TrackPictures pictures(run, making, stream->rig());
+      TrackPictures pictures(run, making, stream->rig(), workbench.device(run.values));
       TrackEnd end = track_all(*stream, tracker, making, truth, pictures, summary);
       std::vector<std::filesystem::path> files;
       for (const auto& name : TrackLog::files()) files.push_back(making.folder / name);

@@ -99,8 +99,8 @@ void FramePicture::draw_header(Place place, const std::string& caption, const Co
 }
 
 void FramePicture::draw_color(const TrackedFrame& tracked) {
-  const bool has_color = !tracked.frame.color.empty();
-  if (has_color) paint_color(panel(color_panel), color_pixels_, tracked.frame.color);
+  const bool has_color = !tracked.color.empty();
+  if (has_color) paint_color(panel(color_panel), color_pixels_, tracked.color);
   if (!has_color && tracked.seen != nullptr) paint_surface(panel(color_panel), depth_pixels_, *tracked.seen);
   const std::string caption = has_color ? "colour" : "surface";
   if (caption == color_caption_) return;

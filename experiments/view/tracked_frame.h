@@ -9,6 +9,7 @@ namespace pliant {
 /// What there is to see of a frame when it has been tracked; valid until the next one is.
 struct TrackedFrame {
   const Frame& frame;
+  const ColorImage& color;  ///< of the frame, with virtual objects where there are some; may be empty
   const FrameRecord& record;
   const SurfaceMap* seen;   ///< the surface of the frame, in its camera's frame; null: there is no model yet
   const SurfaceMap* model;  ///< what that camera sees of the model at the last pose that was found; as `seen`

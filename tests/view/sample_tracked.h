@@ -20,8 +20,8 @@ class SampleTracked {
     record.pose.inliers = 1234;
   }
 
-  TrackedFrame tracked() const { return {frame, record, &seen_, &model_}; }
-  TrackedFrame waiting() const { return {frame, record, nullptr, nullptr}; }
+  TrackedFrame tracked() const { return {frame, frame.color, record, &seen_, &model_}; }
+  TrackedFrame waiting() const { return {frame, frame.color, record, nullptr, nullptr}; }
 
   static constexpr PixelWindow window{20, 10, 40, 40};
   const Camera camera{70, 70, 39.5, 29.5, 80, 60};

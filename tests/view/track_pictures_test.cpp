@@ -205,7 +205,7 @@ TEST(TrackView, StaysSmall) {
   const SampleTracked sample;
   TrackView track;
   track.begin({camera});
-  for (int i = 0; i < 24; ++i) track.show({sample.frame, sample.record, &map, &map});
+  for (int i = 0; i < 24; ++i) track.show({sample.frame, sample.frame.color, sample.record, &map, &map});
   EXPECT_LT(view_json(track.view(square(200), {})).dump().size(), 1'300'000U);
 }
 
