@@ -97,8 +97,8 @@ struct RunArtefacts : RunSummary {
 struct ArtefactNames {
   std::vector<std::string> pictures;
   std::vector<std::string> surfaces;
-  bool view = false;               ///< whether there is one
-  std::vector<std::string> files;  ///< that the task itself writes
+  bool view = false;                    ///< whether there is one
+  std::vector<std::string> files = {};  ///< that the task itself writes
 };
 
 }  // namespace pliant

@@ -1,6 +1,7 @@
 #include "experiments/tasks/track_truth.h"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace pliant {
 PoseError pose_error(const Eigen::Isometry3d& found, const Eigen::Isometry3d& truth) {
   const Eigen::Isometry3d between = found.inverse() * truth;  // of two cameras in the model's frame
   return {(found.inverse().translation() - truth.inverse().translation()).norm(),
-          Eigen::AngleAxisd(between.rotation()).angle() * 180 / EIGEN_PI};
+          Eigen::AngleAxisd(between.rotation()).angle() * 180 / std::numbers::pi};
 }
 
 std::optional<PoseError> TrackTruth::error_of(const FrameRecord& record) {

@@ -35,6 +35,17 @@ float brightness(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
   return lengths > 0 ? ambient + (1 - ambient) * std::abs(point.dot(normal)) / lengths : ambient;
 }
 
+/// The bounding window of the pixels that show a triangle; empty where none does.
+PixelWindow window_of(const MeshView& view) {
+  const PixelWindow image = whole_image(view.camera);
+  Eigen::AlignedBox2i box;
+  for (int v = 0; v < image.height; ++v)
+    for (int u = 0; u < image.width; ++u)
+      if (view.triangles.host()[image.offset(u, v)] >= 0) box.extend(Eigen::Vector2i(u, v));
+  if (box.isEmpty()) return {};
+  return {box.min().x(), box.min().y(), box.sizes().x() + 1, box.sizes().y() + 1};
+}
+
 Rgb to_color(const float* rgb) {
   const auto byte = [](float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)));
@@ -75,8 +86,10 @@ ColorImage Augmentation::draw(const Frame& frame, const Eigen::Isometry3d& camer
     vertices.emplace_back((camera_from_object * vertex.cast<double>()).cast<float>());
   const MeshView view = renderer_.render(flatten(vertices), rig_.color.value_or(rig_.depth));
   const Array<float> colors = renderer_.interpolate(view, shaded(vertices));
-  const DepthImage measured = depth_at_color(frame.depth, rig_);
   ColorImage image = frame.color;
+  const PixelWindow window = window_of(view);
+  if (window.size() == 0) return image;
+  const DepthImage measured = depth_at_color(frame.depth, rig_, window);
   for (std::size_t i = 0; i < image.size(); ++i) {
     if (view.triangles.host()[i] < 0) continue;
     const float before = measured.data()[i];

@@ -27,8 +27,11 @@ Rgb read_color(const Parameters& section) {
 SurfaceMesh read_mesh(const std::string& file, double scale) {
   const auto extension = std::filesystem::path(file).extension();
   if (extension == ".ply" || extension == ".obj") return read_surface_mesh(file, scale);
-  Mesh mesh = read_gltf(file, scale);
-  return {std::move(mesh.vertices), std::move(mesh.triangles), {}};
+  GltfScene scene = read_gltf_scene(file, {scale, false, true});
+  SurfaceMesh mesh{{}, std::move(scene.mesh.triangles), std::move(scene.colors)};
+  for (const Eigen::Vector3d& vertex : scene.mesh.deform(scene.mesh.rest()))
+    mesh.vertices.emplace_back(vertex.cast<float>());
+  return mesh;
 }
 
 }  // namespace
@@ -46,7 +49,7 @@ ParameterTable augmentation_table() {
           .unit("degree")
           .doc("how it is turned in that frame about x, then y, then z, from upright and facing the camera"),
       reals("color", 3, std::vector<double>{240, 170, 40})
-          .doc("red, green and blue, 0 to 255, of an object whose file has no colours of vertices"),
+          .doc("red, green and blue, 0 to 255, of an object whose file has no colours but textures"),
       real("tolerance", 5)
           .unit("mm")
           .at_least(0)

@@ -11,7 +11,10 @@ template <class T>
 class Image {
  public:
   Image() = default;
-  Image(int width, int height, T value = T())
+  /// Zeros; uninitialised where T() is, as vectors of Eigen are.
+  Image(int width, int height)
+      : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {}
+  Image(int width, int height, T value)
       : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height, value) {}
 
   int width() const { return width_; }

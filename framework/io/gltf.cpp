@@ -12,6 +12,7 @@
 
 #include "framework/io/file.h"
 #include "framework/io/gltf_animation.h"
+#include "framework/io/gltf_color.h"
 #include "framework/io/gltf_document.h"
 #include "framework/io/gltf_nodes.h"
 #include "framework/io/gltf_skin.h"
@@ -48,6 +49,14 @@ class SceneReader {
     return std::move(mesh_);
   }
 
+  /// The same with `colors` of the vertices that were read; empty where none has one.
+  Mesh read(std::vector<Rgb>& colors) {
+    colors_ = &colors;
+    Mesh mesh = read();
+    if (!is_colored_) colors.clear();
+    return mesh;
+  }
+
   /// Which morph targets of the mesh those of a node of the file's list are.
   const std::map<std::size_t, std::vector<std::size_t>>& targets() const { return targets_; }
 
@@ -64,9 +73,16 @@ class SceneReader {
       const Primitive primitive = read_primitive(part);
       const std::vector<std::string> names = target_names(mesh, primitive.displacements.size());
       add_primitive(primitive, names, joints_ != nullptr ? Eigen::Affine3d::Identity() : node.placed);
+      if (colors_ != nullptr) add_colors(read_vertex_colors(document_, part, primitive.positions.size()));
       note_targets(node.number, names);
       if (joints_ != nullptr) add_skin(index, description, part, primitive.positions.size());
     }
+  }
+
+  void add_colors(const std::vector<Rgb>& colors) {
+    is_colored_ |= !colors.empty();
+    colors_->insert(colors_->end(), colors.begin(), colors.end());
+    colors_->resize(mesh_.vertices.size(), Rgb{255, 255, 255});  // what glTF shows without any
   }
 
   void note_targets(std::size_t node, const std::vector<std::string>& names) {
@@ -220,6 +236,8 @@ class SceneReader {
   double unit_;         ///< mm
   GltfJoints* joints_;  ///< null: nodes place their meshes
   Mesh mesh_;
+  std::vector<Rgb>* colors_ = nullptr;  ///< null: nobody wants them
+  bool is_colored_ = false;
   std::map<std::size_t, std::vector<std::size_t>> targets_;
 };
 
@@ -305,7 +323,7 @@ GltfScene read_gltf_scene(const std::string& path, const GltfOptions& options) {
   if (has_joints) scene.warnings = chain(document, moved, options.chain_joints, path, nodes);
   GltfJoints joints(document, nodes, options.unit);
   SceneReader reader(document, nodes, options.unit, has_joints ? &joints : nullptr);
-  scene.mesh = reader.read();
+  scene.mesh = options.colors ? reader.read(scene.colors) : reader.read();
   if (has_joints) {
     turn_mirrored(scene.mesh);
     to_floats(scene.mesh.deform(scene.mesh.rest()), document);  // so that it can be shown

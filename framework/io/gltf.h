@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "framework/geometry/animation.h"
+#include "framework/geometry/image.h"
 #include "framework/geometry/mesh.h"
 
 namespace pliant {
@@ -18,6 +19,9 @@ struct GltfScene {
   /// joints, all others by their node, and `mesh.deform(mesh.rest())` is what the file shows. Otherwise there
   /// are no joints and the nodes have placed their vertices.
   Mesh mesh;
+  /// sRGB, of every vertex: base colours of materials times colours of vertices, white where one has neither;
+  /// textures play no part. Empty where the file has none.
+  std::vector<Rgb> colors;
   std::vector<Animation> animations;  ///< of `mesh`, named as in the file, else `animation0`, ...
   std::vector<std::string> warnings;  ///< what is odd though it can be used, a line each that names the file
 };
@@ -28,6 +32,7 @@ struct GltfOptions {
   /// Build chains of joints that are children of one node by what they are called (chained_parents), as hands
   /// of WebXR need it; joints that an animation moves stay where they are. The mesh at rest is the same.
   bool chain_joints = false;
+  bool colors = false;  ///< read them; else they may be anything
 };
 
 /// Reads the default scene of a glTF 2.0 file, binary or JSON with its buffers in files beside it or within,

@@ -38,7 +38,6 @@ class Tracker {
  private:
   bool find_object(const Frame& frame, FrameRecord& record);
   void preprocess(const Frame& frame);
-  void preprocess(const Frame& frame);
   void begin_model(FrameRecord& record);
   void follow(FrameRecord& record);
   void fuse();
@@ -46,7 +45,6 @@ class Tracker {
   const TrackingMethod& method_;
   Rig rig_;
   Device& device_;
-  Region region_;                             // once it is known
   Region region_;                             // once it is known
   std::optional<Preprocessor> preprocessor_;  // likewise
   std::unique_ptr<PoseEstimator> pose_;

@@ -148,5 +148,30 @@ TEST(ColorAtDepth, WithoutACameraOfItsOwnStaysAsItIs) {
   EXPECT_TRUE(color_at_depth(frame, rig_apart()).empty());
 }
 
+TEST(DepthAtColor, IsWhatTheColourCameraSees) {
+  const Rig rig = rig_apart();
+  const DepthImage depth = see(rig, make_scene()).depth;
+  const DepthImage found = depth_at_color(depth, rig, whole_image(*rig.color));
+  const DepthImage exact = depth_of(seen_by(*rig.color, make_scene(), rig.color_from_depth));
+  int same = 0;
+  int others = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    if (found.data()[i] == 0) continue;
+    (std::abs(found.data()[i] - exact.data()[i]) < 0.1 ? same : others) += 1;
+  }
+  EXPECT_GT(same, 40000);
+  EXPECT_LT(others, 600) << "the wall beside the square, where only its pixels' centres count";
+  const PixelWindow window{150, 70, 61, 90};
+  const DepthImage part = depth_at_color(depth, rig, window);
+  for (int v = 0; v < part.height(); ++v)
+    for (int u = 0; u < part.width(); ++u)
+      ASSERT_NEAR(part(u, v), window.contains(u, v) ? found(u, v) : 0, 0.01) << u << " " << v;
+}
+
+TEST(DepthAtColor, WithoutACameraOfItsOwnStaysAsItIs) {
+  const DepthImage depth(160, 120, 700);
+  EXPECT_EQ(depth_at_color(depth, {rig_apart().depth}, {1, 2, 3, 4}).pixels(), depth.pixels());
+}
+
 }  // namespace
 }  // namespace pliant

@@ -463,5 +463,47 @@ TEST_F(GltfSceneFile, StrangeValuesInSkinsNodesAndAnimationsNeverDoHarm) {
   }
 }
 
+class GltfColors : public testing::TestFiles {
+ protected:
+  std::vector<Rgb> read(const GlbFile& glb) const {
+    return read_gltf_scene(write("colors.glb", glb.bytes()), {1000, false, true}).colors;
+  }
+  GlbFile glb_ = testing::square_glb();
+  json& primitive() { return glb_.json["meshes"][0]["primitives"][0]; }
+};
+
+TEST_F(GltfColors, AreThoseOfTheMaterialTimesThoseOfTheVertices) {
+  EXPECT_THAT(read(glb_), IsEmpty());
+  primitive()["material"] = 0;
+  glb_.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, 0.3}}}}}};
+  EXPECT_EQ(read(glb_), std::vector<Rgb>(4, Rgb{255, 188, 0})) << "half as much light";
+  const auto own = glb_.accessor(
+      glb_.view(std::vector<std::uint8_t>{255, 255, 255, 9, 0, 0, 0, 9, 255, 0, 255, 9, 0, 255, 0, 9}),
+      GlbFile::kByte, "VEC4", 4);
+  glb_.json["accessors"][own]["normalized"] = true;
+  primitive()["attributes"]["COLOR_0"] = own;
+  EXPECT_EQ(read(glb_), (std::vector<Rgb>{{255, 188, 0}, {0, 0, 0}, {255, 0, 0}, {0, 188, 0}}));
+}
+
+TEST_F(GltfColors, AreWhiteWhereOnlyOtherPartsHaveSome) {
+  json colored = primitive();
+  colored["material"] = 0;
+  glb_.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 1, 1}}}}}};
+  glb_.json["meshes"][0]["primitives"].push_back(colored);
+  const auto colors = read(glb_);
+  ASSERT_EQ(colors.size(), 8U);
+  EXPECT_EQ(colors[3], (Rgb{255, 255, 255}));
+  EXPECT_EQ(colors[4], (Rgb{0, 0, 255}));
+}
+
+TEST_F(GltfColors, ThatCannotBeReadAreNamed) {
+  primitive()["attributes"]["COLOR_0"] = glb_.vectors({1, 1, 1});
+  EXPECT_THAT(data_error_of([&] { read(glb_); }), HasSubstr("1 colours for 4 vertices"));
+  EXPECT_NO_THROW(read_gltf(file("colors.glb"))) << "nobody wants them";
+  primitive()["attributes"].erase("COLOR_0");
+  primitive()["material"] = 3;
+  EXPECT_THAT(data_error_of([&] { read(glb_); }), HasSubstr("material"));
+}
+
 }  // namespace
 }  // namespace pliant

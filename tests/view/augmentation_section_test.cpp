@@ -16,10 +16,9 @@ using ::testing::HasSubstr;
 class AugmentationSection : public testing::TestFiles {
  protected:
   AugmentationSection() {
-    testing::GlbFile glb;
-    const std::size_t positions = glb.vectors({1, 0, 0, 0, 2, 0, 0, 0, 3});
-    glb.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}}};
-    write("axes.glb", glb.bytes());
+    const std::size_t positions = glb_.vectors({1, 0, 0, 0, 2, 0, 0, 0, 3});
+    glb_.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}}};
+    write("axes.glb", glb_.bytes());
   }
 
   Augmentation::Object object(const std::string& keys) const {
@@ -38,6 +37,8 @@ class AugmentationSection : public testing::TestFiles {
       vertices.push_back(read.model_from_object * vertex.cast<double>());
     return vertices;
   }
+
+  testing::GlbFile glb_;
 };
 
 TEST_F(AugmentationSection, StandsUprightAndLooksAtTheCamera) {
@@ -55,6 +56,10 @@ TEST_F(AugmentationSection, IsScaledAndTurned) {
 
 TEST_F(AugmentationSection, HasTheColourOfTheFileOrTheSection) {
   EXPECT_EQ(object("axes.glb, color: [1, 2, 300]").mesh.colors, std::vector<Rgb>(3, Rgb{1, 2, 255}));
+  glb_.json["meshes"][0]["primitives"][0]["material"] = 0;
+  glb_.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 1}}}}}};
+  write("green.glb", glb_.bytes());
+  EXPECT_EQ(object("green.glb").mesh.colors, std::vector<Rgb>(3, Rgb{0, 255, 0}));
   write("red.obj", std::string("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n"));
   EXPECT_EQ(object("red.obj").mesh.colors, std::vector<Rgb>(3, Rgb{255, 0, 0}));
 }
