@@ -53,7 +53,9 @@ void register_tum(Registry& registry) {
       "tum", "A sequence in the layout of the TUM RGB-D benchmark",
       with_sequence(
           {
-              path("folder").doc("with associations.txt, or depth.txt and rgb.txt, and the images they name"),
+              path("folder").doc("with associations.txt, or depth.txt and rgb.txt, the images they name, and "
+                                 "groundtruth.txt where "
+                                 "there is one"),
               choice("camera", {"freiburg1", "freiburg2", "freiburg3", "ros_default"}, "ros_default")
                   .doc("a camera of the benchmark, where neither 'intrinsics' nor numbers are given"),
           },
