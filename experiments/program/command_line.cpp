@@ -64,6 +64,8 @@ constexpr const char* track_examples = R"(
 Examples:
   pliant track experiments/track_head.yaml
   pliant track my.yaml --data ~/recordings --out out/mine
+  pliant track my.yaml --show                         in a window, live
+  pliant track my.yaml --set record.video=true        video.avi, without a screen
 
 Every frame is in frames.jsonl, frames.csv and trajectory.txt as soon as it is tracked. Ctrl-C, or a camera that
 is unplugged (exit code 3), ends with the model and the report of what there is.
@@ -182,6 +184,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       add_command(app, "track", "Tracks the frames of a stream and fuses them into a model", track_examples);
   add_set_and_data(*track, experiment);
   add_out(*track, experiment, "out/<name of the experiment>");
+  track->add_flag("--show", experiment.show,
+                  "A window with the frames while they are tracked: space pauses, q, Esc or closing it ends");
   track->callback([&] { track_command(experiment); });
 
   auto* check =

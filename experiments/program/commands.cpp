@@ -7,6 +7,7 @@
 
 #include "experiments/program/folders.h"
 #include "experiments/program/interruption.h"
+#include "experiments/program/live_view.h"
 #include "experiments/program/output.h"
 #include "experiments/program/progress_line.h"
 #include "experiments/runner/components.h"
@@ -51,6 +52,8 @@ void make(const Task& task, const ExperimentPlan& plan, const ExperimentOptions&
   std::optional<FinishOnInterruption> interruption;
   RunOptions how{options.repeats};
   if (task.can_end_early()) how.is_ended = [&asked = interruption.emplace()] { return asked.is_asked(); };
+  std::optional<LiveView> live;
+  if (options.show) how.observer = &live.emplace(how.is_ended);
   const ExperimentResult result = run_experiment(task, plan, folder, workbench, line.sink(), how);
   line.clear();
   tell(task, plan, result, folder);

@@ -11,9 +11,10 @@ namespace pliant {
 struct ExperimentOptions {
   std::string file;
   std::vector<std::string> sets;
-  std::string out;   ///< empty: out/<name of the experiment> below the current folder
-  std::string data;  ///< empty: none given
-  int repeats = 0;   ///< timed runs after one that is not timed; 0: one run, timed
+  std::string out;    ///< empty: out/<name of the experiment> below the current folder
+  std::string data;   ///< empty: none given
+  bool show = false;  ///< the frames in a window while they are tracked
+  int repeats = 0;    ///< timed runs after one that is not timed; 0: one run, timed
 };
 
 /// How an experiment file of this program is read: with the data folders and the methods that come with it.

@@ -13,27 +13,16 @@ namespace pliant {
 namespace {
 
 constexpr int bar_width = 22;
-const cv::Scalar nothing(236, 233, 231);
 
-/// The 256 colours of a perceptually uniform map, lowest first.
-cv::Mat palette(ColorScale::Map map) {
-  cv::Mat ramp(256, 1, CV_8U);
-  for (int i = 0; i < 256; ++i) ramp.at<std::uint8_t>(i) = static_cast<std::uint8_t>(i);
-  cv::Mat colors;
-  cv::applyColorMap(ramp, colors,
-                    map == ColorScale::Map::depth ? cv::COLORMAP_VIRIDIS : cv::COLORMAP_INFERNO);
-  return colors;
-}
+cv::Vec3b bgr(const Rgb& color) { return {color.b, color.g, color.r}; }
 
 cv::Mat colorize(const Image<float>& values, const ColorScale& scale) {
-  const cv::Mat colors = palette(scale.map);
-  cv::Mat picture(values.height(), values.width(), CV_8UC3, nothing);
+  const auto colors = colors_of(scale.map);
+  cv::Mat picture(values.height(), values.width(), CV_8UC3, cv::Scalar(bgr(no_color)));
   for (int v = 0; v < values.height(); ++v) {
     for (int u = 0; u < values.width(); ++u) {
       if (!std::isfinite(values(u, v))) continue;
-      const float part = (values(u, v) - scale.lowest) / (scale.highest - scale.lowest);
-      const int index = static_cast<int>(std::lround(255 * std::clamp(part, 0.0f, 1.0f)));
-      picture.at<cv::Vec3b>(v, u) = colors.at<cv::Vec3b>(index);
+      picture.at<cv::Vec3b>(v, u) = bgr(colors[color_index(scale, values(u, v))]);
     }
   }
   return picture;
@@ -62,10 +51,10 @@ std::string label(double tick, const ColorScale& scale, const Image<float>& valu
 
 void draw_bar(cv::Mat& canvas, const cv::Rect& legend, const ColorScale& scale, const Image<float>& values) {
   const cv::Rect place(legend.x, legend.y, bar_width, legend.height);
-  const cv::Mat colors = palette(scale.map);
+  const auto colors = colors_of(scale.map);
   for (int row = 0; row < place.height; ++row) {
-    const int index = 255 - row * 255 / (place.height - 1);
-    canvas(cv::Rect(place.x, place.y + row, place.width, 1)).setTo(cv::Scalar(colors.at<cv::Vec3b>(index)));
+    const auto index = static_cast<std::size_t>(255 - row * 255 / (place.height - 1));
+    canvas(cv::Rect(place.x, place.y + row, place.width, 1)).setTo(cv::Scalar(bgr(colors[index])));
   }
   for (const double tick : ticks(scale)) {
     const double part = (tick - scale.lowest) / (scale.highest - scale.lowest);
@@ -77,6 +66,20 @@ void draw_bar(cv::Mat& canvas, const cv::Rect& legend, const ColorScale& scale, 
 }
 
 }  // namespace
+
+std::array<Rgb, 256> colors_of(ColorScale::Map map) {
+  cv::Mat ramp(256, 1, CV_8U);
+  for (int i = 0; i < 256; ++i) ramp.at<std::uint8_t>(i) = static_cast<std::uint8_t>(i);
+  cv::Mat mapped;
+  cv::applyColorMap(ramp, mapped,
+                    map == ColorScale::Map::depth ? cv::COLORMAP_VIRIDIS : cv::COLORMAP_INFERNO);
+  std::array<Rgb, 256> colors;
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const auto color = mapped.at<cv::Vec3b>(static_cast<int>(i));
+    colors[i] = {color[2], color[1], color[0]};
+  }
+  return colors;
+}
 
 double round_up(double value) {
   const double decade = std::pow(10, std::floor(std::log10(value)));

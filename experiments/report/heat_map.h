@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,6 +18,17 @@ struct ColorScale {
   float lowest = 0;   ///< mm
   float highest = 1;  ///< mm, above `lowest`
 };
+
+/// The 256 colours of a perceptually uniform map, lowest first.
+std::array<Rgb, 256> colors_of(ColorScale::Map map);
+/// Of pixels without a value.
+inline constexpr Rgb no_color{231, 233, 236};
+
+/// Which colour of its map a finite value has.
+inline std::size_t color_index(const ColorScale& scale, float value) {
+  const float part = (value - scale.lowest) / (scale.highest - scale.lowest);
+  return static_cast<std::size_t>(255 * std::clamp(part, 0.0F, 1.0F) + 0.5F);
+}
 
 /// The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `value` > 0.
 double round_up(double value);

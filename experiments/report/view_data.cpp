@@ -29,8 +29,10 @@ class Grid {
     for (const auto& step : view.steps) {
       add(step.points);
       add(step.nodes);
+      add(step.camera);
       for (const auto& [from, to] : step.constraints) add({from, to});
     }
+    if (view.frames) add(view.frames->path);
     if (box_.isEmpty()) box_.extend(Eigen::Vector3f::Zero());
     size_ = std::max(box_.sizes().maxCoeff(), 1e-3F);
   }
@@ -72,6 +74,12 @@ std::string indices_text(const std::vector<std::pair<int, int>>& pairs) {
     append(bytes, static_cast<std::size_t>(from));
     append(bytes, static_cast<std::size_t>(to));
   }
+  return base64(bytes);
+}
+
+std::string indices_text(const std::vector<int>& indices) {
+  std::vector<std::uint8_t> bytes;
+  for (const int index : indices) append(bytes, static_cast<std::size_t>(index));
   return base64(bytes);
 }
 
@@ -129,6 +137,9 @@ ordered_json step_json(const ViewData::Step& step, const Grid& grid, float large
                     {"constraints", constraints_text(step, grid)},
                     {"constraint_count", step.constraint_count}};
   if (!step.truth.empty()) json["truth"] = errors_text(step.truth, largest);
+  if (!step.state.empty()) json["state"] = step.state;
+  if (!step.cells.empty()) json["cells"] = indices_text(step.cells);
+  if (!step.camera.empty()) json["camera"] = grid.text(step.camera);
   return json;
 }
 
@@ -156,18 +167,22 @@ ordered_json view_json(const ViewData& view) {
   for (const auto& graph : view.graphs) graphs.push_back(graph_json(graph));
   ordered_json steps = ordered_json::array();
   for (const auto& step : view.steps) steps.push_back(step_json(step, grid, largest));
-  return {{"format", 1},
-          {"box", grid.json()},
-          {"scale", view.scale},
-          {"largest_error", largest},
-          {"has_truth", !view.steps.empty() && !view.steps.front().truth.empty()},
-          {"result", view.result},
-          {"source", mesh_json(view.source, grid)},
-          {"target", mesh_json(view.target, grid)},
-          {"unmatched", unmatched_text(view)},
-          {"graphs", graphs},
-          {"steps", steps},
-          {"picture", base64(view.picture)}};
+  ordered_json json{{"format", 1},
+                    {"box", grid.json()},
+                    {"scale", view.scale},
+                    {"largest_error", largest},
+                    {"has_truth", !view.steps.empty() && !view.steps.front().truth.empty()},
+                    {"result", view.result},
+                    {"source", mesh_json(view.source, grid)},
+                    {"target", mesh_json(view.target, grid)},
+                    {"unmatched", unmatched_text(view)},
+                    {"graphs", graphs},
+                    {"steps", steps},
+                    {"picture", base64(view.picture)}};
+  if (view.frames)
+    json["frames"] = {
+        {"columns", view.frames->columns}, {"gap", view.frames->gap}, {"path", grid.text(view.frames->path)}};
+  return json;
 }
 
 }  // namespace pliant

@@ -7,6 +7,7 @@
 #include "experiments/datasets/frame_source.h"
 #include "experiments/report/report.h"
 #include "experiments/study/study_section.h"
+#include "experiments/view/augmentation_section.h"
 #include "framework/config/config_reader.h"
 #include "framework/config/config_sweep.h"
 #include "framework/core/error.h"
@@ -112,6 +113,12 @@ ParameterTable experiment_table() {
                      .at_least(1)
                      .doc("bend the source by these handles instead of registering it to the target"));
   for (auto& row : tracking_rows()) rows.push_back(std::move(row));
+  rows.push_back(
+      group("record", record_table()).optional().doc("what is kept of frames that are tracked, to look at"));
+  rows.push_back(
+      group("augmentation", augmentation_table())
+          .optional()
+          .doc("a virtual object over the colour of frames that are tracked, where someone watches"));
   for (auto& row : method_rows()) rows.push_back(std::move(row));
   rows.push_back(components("reports", Report::kind)
                      .optional()

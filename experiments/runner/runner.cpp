@@ -105,9 +105,9 @@ class Runs {
     const fs::path own = folder_of(run, result.unfinished());
     std::optional<RunArtefacts> made;
     try {
-      made = task_.make(
-          run, workbench_,
-          {under_name(progress_, run.name), repeats(run), own, [&] { result.keep(); }, options_.is_ended});
+      made = task_.make(run, workbench_,
+                        {under_name(progress_, run.name), repeats(run), own, [&] { result.keep(); },
+                         options_.is_ended, options_.observer});
     } catch (const Error& error) {
       remove(run, finished);
       return failed(error);

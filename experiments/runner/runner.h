@@ -43,6 +43,7 @@ struct RunOptions {
   /// them fail only the result says so, and nothing is written.
   bool is_one_of_many = false;
   std::function<bool()> is_ended = [] { return false; };  ///< see Making
+  TrackObserver* observer = nullptr;                      ///< see Making
 };
 
 /// What the progress of a run says that is not made but taken.

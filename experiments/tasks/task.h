@@ -8,6 +8,7 @@
 
 #include "experiments/report/artefacts.h"
 #include "experiments/tasks/workbench.h"
+#include "experiments/view/track_observer.h"
 #include "framework/core/log.h"
 #include "framework/core/parameters.h"
 #include "framework/registration/edit.h"
@@ -30,6 +31,7 @@ struct Making {
   std::filesystem::path folder = {};   ///< where the run's results are to be; it exists
   std::function<void()> keep = [] {};  ///< from then on what is in `folder` outlasts whatever ends this
   std::function<bool()> is_ended = [] { return false; };  ///< whether to end early, with what there is
+  TrackObserver* observer = nullptr;                      ///< watches the frames of a stream, if it is there
 };
 
 /// Turns a run of an experiment into artefacts.
@@ -74,6 +76,9 @@ ProgressSink labelled(const ProgressSink& progress, const std::string& label);
 
 /// How `pliant compare` measures.
 ParameterTable compare_table();
+
+/// What is kept of frames that are tracked, to look at.
+ParameterTable record_table();
 
 /// The handles of a run, by name.
 NamedHandles make_handles(const ExperimentRun& run, const Registry& registry);

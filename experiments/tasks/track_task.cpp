@@ -6,6 +6,7 @@
 #include "experiments/tasks/task.h"
 #include "experiments/tasks/track_artefacts.h"
 #include "experiments/tasks/track_log.h"
+#include "experiments/tasks/track_pictures.h"
 #include "experiments/tasks/track_truth.h"
 #include "framework/io/mesh_writer.h"
 #include "framework/tracking/tracker.h"
@@ -25,8 +26,10 @@ class TrackTask : public Task {
 
   ArtefactNames names() const override {
     ArtefactNames names;
+    names.pictures = {TrackPictures::strip_name};
+    names.view = true;
     names.files = TrackLog::files();
-    names.files.insert(names.files.end(), {model_ply, model_glb});
+    names.files.insert(names.files.end(), {model_ply, model_glb, TrackPictures::video_name});
     return names;
   }
 
@@ -44,16 +47,19 @@ class TrackTask : public Task {
       Tracker tracker(method, stream->rig(), workbench.device(run.values));
       TrackSummary summary;
       TrackTruth truth(*stream);
-      TrackEnd end = track_all(*stream, tracker, making, truth, summary);
+      TrackPictures pictures(run, making, stream->rig(), workbench.device(run.values));
+      TrackEnd end = track_all(*stream, tracker, making, truth, pictures, summary);
       std::vector<std::filesystem::path> files;
       for (const auto& name : TrackLog::files()) files.push_back(making.folder / name);
+      Mesh model;
       if (tracker.has_model()) {
-        const Mesh model = tracker.model().mesh();
+        model = tracker.model().mesh();
         end.model_error = truth.error_of(model);
         write_model(model, making.folder, files);
       }
       RunArtefacts made = track_artefacts(run, summary, end);
       made.files = std::move(files);
+      pictures.add_to(made, std::move(model));
       return made;
     });
   }
@@ -64,7 +70,7 @@ class TrackTask : public Task {
 
   /// Until the stream ends, breaks after its first frame, or is to be ended.
   static TrackEnd track_all(DataStream& stream, Tracker& tracker, const Making& making, TrackTruth& truth,
-                            TrackSummary& summary) {
+                            TrackPictures& pictures, TrackSummary& summary) {
     CheckedStream frames(stream);
     std::optional<TrackLog> log;
     try {
@@ -78,6 +84,7 @@ class TrackTask : public Task {
         making.keep();
         summary.add(record, error);
         tell(making.progress, record);
+        if (!pictures.show(*frame, record, tracker)) break;
       }
     } catch (const DataError& error) {
       if (summary.frames.empty()) throw;

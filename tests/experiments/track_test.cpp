@@ -3,6 +3,7 @@
 
 #include "experiments/runner/runner.h"
 #include "experiments/tasks/json_file.h"
+#include "experiments/view/track_observer.h"
 #include "framework/core/error.h"
 #include "framework/io/images.h"
 #include "framework/io/surface_mesh.h"
@@ -60,6 +61,64 @@ TEST_F(TrackTest, EndsEarlyWithWhatThereIs) {
   options.is_ended = [asked = 0]() mutable { return ++asked > 3; };
   EXPECT_EQ(track(tracked_head, options)["frames"], 3);
   EXPECT_NO_THROW(check_ends(result_));
+}
+
+/// Has seen enough after some frames.
+class Watching : public TrackObserver {
+ public:
+  explicit Watching(int most) : most_(most) {}
+  void begin(const Rig& rig) override { width = rig.depth.width; }
+  bool show(const TrackedFrame& tracked) override {
+    EXPECT_EQ(tracked.record.number, static_cast<int>(colors.size()) + 1);
+    EXPECT_NE(tracked.model, nullptr);
+    colors.push_back(tracked.color);
+    return tracked.record.number < most_;
+  }
+
+  int width = 0;
+  std::vector<ColorImage> colors;
+
+ private:
+  int most_;
+};
+
+TEST_F(TrackTest, IsWatchedUntilTheObserverHasSeenEnough) {
+  Watching watching(3);
+  RunOptions options;
+  options.observer = &watching;
+  EXPECT_EQ(track(tracked_head, options)["frames"], 3);
+  EXPECT_EQ(watching.width, 160);
+  EXPECT_EQ(watching.colors.size(), 3U);
+}
+
+TEST_F(TrackTest, WhoWatchesSeesTheVirtualObject) {
+  write("box.obj", "v -20 -20 0\nv 20 -20 0\nv 0 20 0\nf 1 2 3\n");
+  const std::string colored = tracked_head + "  texture: skin\n";
+  Watching plain(2);
+  RunOptions options;
+  options.observer = &plain;
+  track(colored, options);
+  Watching augmented(2);
+  options.observer = &augmented;
+  track(colored + "augmentation: {mesh: box.obj, scale: 1, at: [0, 0, 400], color: [1, 2, 3]}\n", options);
+  ASSERT_EQ(augmented.colors.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_FALSE(plain.colors[i].empty());
+    EXPECT_NE(plain.colors[i].pixels(), augmented.colors[i].pixels()) << i;
+    EXPECT_EQ(plain.colors[i](0, 0), augmented.colors[i](0, 0)) << i;
+  }
+}
+
+TEST_F(TrackTest, LeavesStripViewAndFilm) {
+  track(tracked_head + "record: {video: true, every: 2}\nreports: {pictures: {}, page: {}, view: {}}\n");
+  EXPECT_GT(fs::file_size(file("out/strip.png")), 2000U);
+  const auto view = ordered_json::parse(text_of("out/view.json"));
+  EXPECT_EQ(view["steps"].size(), 6U);
+  EXPECT_EQ(view["steps"][5]["number"], 6);
+  EXPECT_GT(view["target"]["triangles"].get<std::string>().size(), 1000U) << "the model";
+  EXPECT_THAT(text_of("out/index.html"), HasSubstr("class=\"view-figure\""));
+  const std::string film = text_of("out/video.avi");
+  EXPECT_EQ(film[48], 3) << "pictures, of frames 1, 3 and 5";
 }
 
 TEST_F(TrackTest, WhatBreaksAStreamLeavesTheFramesBefore) {

@@ -37,7 +37,38 @@ ViewData::Step step_of(const ViewData& view, int number, int last) {
   return step;
 }
 
+ViewData::Step frame_of(const ViewData::Mesh& square, int side, int number) {
+  ViewData::Step step;
+  step.number = number;
+  step.state = "tracked";
+  for (int cell = 0; cell < side * side; ++cell) {
+    if (cell % side < side / 2 && cell / side < side / 2) continue;
+    step.points.push_back(square.points[static_cast<std::size_t>(cell)]);
+    step.nearest.push_back(static_cast<float>(number));
+    step.cells.push_back(cell);
+  }
+  const Eigen::Vector3f place(20.0F * static_cast<float>(number - 1), 0, 0);
+  step.camera = {place};
+  for (const auto& corner : {Eigen::Vector3f(-30, -20, 50), {30, -20, 50}, {30, 20, 50}, {-30, 20, 50}})
+    step.camera.emplace_back(place + corner);
+  return step;
+}
+
 }  // namespace
+
+ViewData sample_frames(int side, int steps) {
+  ViewData view;
+  view.target = square(side, 600);
+  view.frames = ViewData::Frames{side, 400.0F / static_cast<float>(side), {}};
+  for (int number = 1; number <= steps; ++number) {
+    view.steps.push_back(frame_of(view.target, side, number));
+    view.frames->path.push_back(view.steps.back().camera.front());
+  }
+  view.result = view.steps.size() - 1;
+  view.scale = static_cast<float>(steps);
+  view.picture = draw_heat_map(Image<float>(40, 30, 1), {}, "A strip", "that stands in");
+  return view;
+}
 
 ViewData sample_view(int side, int steps) {
   ViewData view;

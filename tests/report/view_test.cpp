@@ -86,6 +86,20 @@ TEST(ViewJson, TellsOfGraphCellsAndUnmatchedPoints) {
   EXPECT_EQ(view["steps"][1]["constraint_count"], 2000);
 }
 
+TEST(ViewJson, TellsOfFramesAndTheirCamera) {
+  const ViewData data = sample_frames(8, 3);
+  const ordered_json view = view_json(data);
+  EXPECT_EQ(view["frames"]["columns"], 8);
+  EXPECT_EQ(view["frames"]["gap"], 50);
+  EXPECT_LT((point(view, view["frames"]["path"], 2) - Eigen::Vector3f(40, 0, 0)).norm(), 0.01F);
+  const ordered_json& last = view["steps"][2];
+  EXPECT_EQ(last["number"], 3);
+  EXPECT_EQ(last["state"], "tracked");
+  EXPECT_EQ(integers(last["cells"]), data.steps[2].cells);
+  EXPECT_LT((point(view, last["camera"], 3) - data.steps[2].camera[3]).norm(), 0.01F);
+  EXPECT_FALSE(view_json(sample_view(9, 4)).contains("frames"));
+}
+
 TEST(ViewJson, OfNothingIsStillAView) {
   EXPECT_NO_THROW(view_json(ViewData{}));
   EXPECT_EQ(view_json(ViewData{})["has_truth"], false);

@@ -22,6 +22,14 @@ pliant::Study ten_views(const std::filesystem::path& folder) {
   return study;
 }
 
+pliant::Study tracked_frames(const std::filesystem::path& folder) {
+  write(folder / "frames.json", pliant::view_json(pliant::sample_frames(40, 5)).dump());
+  pliant::Study study;
+  study.name = study.title = "frames";
+  study.views = {{"tracked frames", folder / "frames.json"}};
+  return study;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -35,6 +43,7 @@ int main(int argc, char** argv) {
   write(folder / "study.html", pliant::html_page(page));
   write(folder / "static.html", pliant::html_page(page, {}));
   write(folder / "ten_views.html", pliant::make_study_page("Ten views", "", {ten_views(folder)}));
+  write(folder / "frames.html", pliant::make_study_page("Tracked frames", "", {tracked_frames(folder)}));
   write(folder / "accuracy.svg", pliant::chart_svg_file(pliant::sample_lines()));
   write(folder / "chart.html", "<!DOCTYPE html><title>A chart</title><img src=\"accuracy.svg\">\n");
 }

@@ -1,11 +1,14 @@
 // A registration as a scene: each layer can be shown or not, and what moves follows the steps.
 import {
   AmbientLight, BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, DoubleSide, Group,
-  LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Points, PointsMaterial, Scene, SRGBColorSpace, Vector3,
+  Line, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Points, PointsMaterial, Scene, SRGBColorSpace,
+  Vector3,
 } from "three";
 import { errorColor } from "./error_colors.js";
 import { integersOf, positionsOf, stepReader } from "./view_data.js";
 
+// Of a camera: from where it is to the corners of its picture, and around that.
+const cameraLines = Uint16Array.from([0, 1, 0, 2, 0, 3, 0, 4, 1, 2, 2, 3, 3, 4, 4, 1]);
 const levelColors = ["#1f77b4", "#ff7f0e", "#2c8c3c", "#c846bd", "#d62728", "#009696"];
 
 function surface(points, triangles, color) {
@@ -20,6 +23,13 @@ function surface(points, triangles, color) {
 
 function lines(color) {
   return new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color }));
+}
+
+/** From point to point. */
+function path(positions, color) {
+  const line = new Line(new BufferGeometry(), new LineBasicMaterial({ color }));
+  place(line, positions);
+  return line;
 }
 
 /** A round dot. */
@@ -79,6 +89,8 @@ export class ViewScene {
     graph.add(this.edges, this.nodes);
     this.constraints = lines("#d4267d");
     this.hidden = dots("#d4267d", 4);
+    this.path = positionsOf(data.frames?.path ?? "", data.box);
+    this.camera = lines("#d4267d");
     return {
       source: surface(positionsOf(data.source.points, data.box), triangles, "#8fa3bf"),
       target: surface(positionsOf(data.target.points, data.box), integersOf(data.target.triangles), "#c9c6bd"),
@@ -87,6 +99,8 @@ export class ViewScene {
       quadtree: new Group(),
       constraints: this.constraints,
       unmatched: this.hidden,
+      path: path(this.path, "#1f77b4"),
+      camera: this.camera,
     };
   }
 
@@ -94,6 +108,8 @@ export class ViewScene {
   has(layer) {
     if (layer === "quadtree") return this.graphs.some((graph) => graph.cells.length > 0);
     if (layer === "unmatched") return this.unmatched.length > 0;
+    if (layer === "source") return this.data.source.points.length > 0;
+    if (layer === "path" || layer === "camera") return this.path.length > 0;
     if (layer === "graph") return this.graphs.length > 0;
     return layer !== "constraints" || this.data.steps.some((step) => step.constraint_count > 0);
   }
@@ -106,17 +122,20 @@ export class ViewScene {
   setStep(index, kind, highest) {
     const step = this.stepAt(index);
     const graph = this.graphs[this.data.steps[index].graph];
-    this.move(this.layers.registered, step.points);
+    this.move(this.layers.registered, step.points, step.triangles);
     this.color(step.errors[kind], highest);
     place(this.nodes, step.nodes);
     place(this.edges, step.nodes, graph?.edges ?? null);
     place(this.constraints, step.constraints);
     place(this.hidden, this.pick(step.points, this.unmatched));
+    place(this.camera, step.camera, cameraLines);
     this.drawCells(step.points, graph?.cells ?? []);
   }
 
-  move(mesh, positions) {
-    mesh.geometry.setAttribute("position", new BufferAttribute(positions, 3));
+  /** `triangles`: where a step has other ones. */
+  move(mesh, positions, triangles) {
+    if (triangles) place(mesh, positions, triangles);
+    else mesh.geometry.setAttribute("position", new BufferAttribute(positions, 3));
     mesh.geometry.computeVertexNormals();
     mesh.geometry.boundingSphere = null;
   }
@@ -149,12 +168,15 @@ export class ViewScene {
     }
   }
 
-  /** The middle of the result and how far it reaches from there, whatever strays. */
+  /** The middle of the result, whatever strays, and of where the camera went; and how far they reach from there. */
   frame() {
     const { points } = this.stepAt(this.data.result);
     const ends = [0, 1, 2].map((axis) => {
-      const sorted = points.filter((_, index) => index % 3 === axis).sort();
-      return [0.02, 0.98].map((share) => sorted[Math.floor(share * (sorted.length - 1))] ?? 0);
+      const isOfAxis = (_, index) => index % 3 === axis;
+      const sorted = points.filter(isOfAxis).sort();
+      const [low, high] = [0.02, 0.98].map((share) => sorted[Math.floor(share * (sorted.length - 1))] ?? 0);
+      const places = this.path.filter(isOfAxis);
+      return [Math.min(low, ...places), Math.max(high, ...places)];
     });
     this.centre = new Vector3(...ends.map(([low, high]) => (low + high) / 2));
     this.radius = Math.max(Math.hypot(...ends.map(([low, high]) => (high - low) / 2)), 1);

@@ -5,14 +5,24 @@ import { element, checkbox, choice, slider, numberField } from "./view_controls.
 import { errorGradient } from "./error_colors.js";
 import { ViewScene } from "./view_scene.js";
 
-const layerNames = { registered: "registered, by error", source: "source", target: "target", graph: "deformation graph",
-  quadtree: "quadtree", constraints: "constraints", unmatched: "unmatched points" };
-const errorNames = { nearest: "to the nearest target point", truth: "to the true position" };
+// What a view shows: the iterations of a registration, or frames that were tracked.
+const iterations = {
+  step: "iteration", shown: ["registered"], direction: [0.45, 0.3, 1],
+  layers: { registered: "registered, by error", source: "source", target: "target", graph: "deformation graph",
+    quadtree: "quadtree", constraints: "constraints", unmatched: "unmatched points" },
+  errors: { nearest: "to the nearest target point", truth: "to the true position" },
+};
+const frames = {
+  step: "frame", shown: ["registered", "path", "camera"], direction: [1, 0.45, 0.35],
+  layers: { registered: "frame, by distance", target: "model", path: "path of the camera", camera: "camera" },
+  errors: { nearest: "to the model" },
+};
 const secondsAStep = 0.6;
 
 export class Viewer {
   constructor(figure, data, stage, scale) {
     this.data = data;
+    this.words = data.frames ? frames : iterations;
     this.stage = stage;
     this.scale = scale;
     this.scene = new ViewScene(data);
@@ -46,7 +56,7 @@ export class Viewer {
   }
 
   makeTimeline() {
-    this.timeline = slider("iteration", this.data.steps.length - 1, this.step, (step) => this.goTo(step));
+    this.timeline = slider(this.words.step, this.data.steps.length - 1, this.step, (step) => this.goTo(step));
     this.playButton = element("button", "play", "play");
     this.playButton.type = "button";
     this.playButton.addEventListener("click", () => this.play());
@@ -54,13 +64,13 @@ export class Viewer {
   }
 
   makeSwitches() {
-    const shown = ["registered"];
-    const boxes = Object.entries(layerNames).filter(([layer]) => this.scene.has(layer)).map(([layer, name]) => {
+    const { layers, shown, errors } = this.words;
+    const boxes = Object.entries(layers).filter(([layer]) => this.scene.has(layer)).map(([layer, name]) => {
       this.scene.show(layer, shown.includes(layer));
       return checkbox(name, layer, shown.includes(layer), (on) => { this.scene.show(layer, on); this.draw(); });
     });
-    for (const layer of Object.keys(layerNames)) if (!this.scene.has(layer)) this.scene.show(layer, false);
-    const kinds = Object.entries(errorNames).filter(([kind]) => kind === "nearest" || this.data.has_truth);
+    for (const layer of Object.keys(this.scene.layers)) if (!this.scene.has(layer)) this.scene.show(layer, false);
+    const kinds = Object.entries(errors).filter(([kind]) => kind === "nearest" || this.data.has_truth);
     const reset = element("button", "reset", "reset the view");
     reset.type = "button";
     reset.addEventListener("click", () => this.aim());
@@ -70,11 +80,11 @@ export class Viewer {
         this.highest, reset));
   }
 
-  /** Looks from a little beside the camera that took the depth. */
+  /** Looks from beside the camera that took the depth. */
   aim() {
     const { centre, radius } = this.scene;
     const fit = (1.02 * radius) / Math.sin((17.5 * Math.PI) / 180) / Math.min(this.camera.aspect, 1);
-    const back = new Vector3(0.45, 0.3, 1).normalize().multiplyScalar(fit);
+    const back = new Vector3(...this.words.direction).normalize().multiplyScalar(fit);
     this.camera.position.copy(centre).add(back);
     this.camera.near = radius / 50;
     this.camera.far = radius * 50;
@@ -119,13 +129,23 @@ export class Viewer {
     const step = this.data.steps[this.step];
     const errors = this.scene.stepAt(this.step).errors[this.kind].filter((error) => !Number.isNaN(error));
     const mean = errors.reduce((sum, error) => sum + error, 0) / Math.max(errors.length, 1);
-    const shown = this.scene.stepAt(this.step).constraints.length / 6;
-    const parts = [step.number === 0 ? "after the initial alignment" : `iteration ${step.number}`];
-    if (this.step === this.data.result) parts[0] += " (the result)";
-    parts.push(`mean distance ${mean.toFixed(2)} mm`, `${this.scene.stepAt(this.step).nodes.length / 3} nodes`);
-    if (step.number > 0) parts.push(`${step.constraint_count} matched constraints` +
+    return [...this.nameOf(step), `mean distance ${mean.toFixed(2)} mm`, ...this.countsOf(step)].join(" · ");
+  }
+
+  nameOf(step) {
+    if (this.data.frames) return [`frame ${step.number}`, step.state];
+    const name = step.number === 0 ? "after the initial alignment" : `iteration ${step.number}`;
+    return [this.step === this.data.result ? `${name} (the result)` : name];
+  }
+
+  countsOf(step) {
+    const { nodes, constraints, points } = this.scene.stepAt(this.step);
+    if (this.data.frames) return [`${points.length / 3} points drawn`];
+    const counts = [`${nodes.length / 3} nodes`];
+    const shown = constraints.length / 6;
+    if (step.number > 0) counts.push(`${step.constraint_count} matched constraints` +
       (shown < step.constraint_count ? `, ${shown} of them drawn` : ""));
-    return parts.join(" · ");
+    return counts;
   }
 
   /** From the first step to the last; once more pressed, it stops. */

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "experiments/report/artefacts.h"
+#include "experiments/tasks/task.h"
+#include "experiments/view/augmentation_section.h"
+#include "experiments/view/picture_strip.h"
+#include "experiments/view/track_video.h"
+#include "experiments/view/track_view.h"
+#include "framework/tracking/tracker.h"
+
+namespace pliant {
+
+/// Lets everyone watch the frames of a run who is to: its observer, and what makes pictures of them. Who sees
+/// their colour sees it with the run's virtual object.
+class TrackPictures {
+ public:
+  /// `device` must outlive this. Throws DataError naming the file of a virtual object that cannot be read.
+  TrackPictures(const ExperimentRun& run, const Making& making, const Rig& rig, Device& device);
+  TrackPictures(const TrackPictures&) = delete;
+  TrackPictures& operator=(const TrackPictures&) = delete;
+
+  /// What the tracker made of its last frame; gives whether to go on. Throws DataError when the film cannot
+  /// be written, or a virtual object is to be drawn over a frame without colour.
+  bool show(const Frame& frame, const FrameRecord& record, const Tracker& tracker);
+  /// Adds what there is to see; `model`: in the end. Frames that began no model leave at most a film.
+  void add_to(RunArtefacts& made, Mesh model) const;
+
+  static constexpr const char* strip_name = "strip";
+  static constexpr const char* video_name = "video.avi";
+
+ private:
+  std::shared_ptr<PictureStrip> strip_ = std::make_shared<PictureStrip>();
+  std::shared_ptr<TrackView> view_ = std::make_shared<TrackView>();
+  std::filesystem::path video_file_;
+  std::optional<Augmentation> augmentation_;  // where someone sees it
+  std::optional<TrackVideo> video_;
+  std::vector<TrackObserver*> observers_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,47 @@
+// frames_page_test.mjs FOLDER: the page that make_pages wrote there of frames that were tracked.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { assertQuiet, changes, checkLayout, colorsOf, eventually, openBrowser, openPage } from "./browser.mjs";
+
+const folder = process.argv[2];
+let browser;
+let page;
+let canvas;
+before(async () => {
+  browser = await openBrowser();
+  page = await openPage(browser, `${folder}/frames.html`);
+  canvas = page.locator(".view-live canvas");
+});
+after(() => browser?.close());
+
+test("nothing is cut off, on any screen", () => checkLayout(page, "frames"));
+
+test("frame, path and camera are drawn, and each layer can be switched", async () => {
+  assert.ok(await colorsOf(canvas) > 100);
+  const boxes = page.locator(".view-layers input");
+  const values = (all) => all.filter((box) => box.checked).map((box) => box.value);
+  assert.deepEqual(await boxes.evaluateAll(values), ["registered", "path", "camera"]);
+  assert.equal(await boxes.count(), 4);
+  for (const box of await boxes.all()) await changes(canvas, () => box.click(), await box.inputValue());
+  for (const box of await boxes.all()) await changes(canvas, () => box.click(), await box.inputValue());
+});
+
+test("the slider goes through the frames, and play does", async () => {
+  assert.match(await page.locator(".view-timeline label").innerText(), /^frame/);
+  const status = page.locator(".view-status");
+  assert.match(await status.innerText(), /^frame 5 · tracked · mean distance 5\.\d\d mm · 1200 points drawn$/);
+  await changes(canvas, () => page.locator(".view-timeline input").fill("0"), "the frame");
+  assert.match(await status.innerText(), /^frame 1 · tracked · mean distance 1\.\d\d mm/);
+  await page.locator("button.play").click();
+  await eventually(async () => /frame 3/.test(await status.innerText()), "no other frame was played");
+  await page.locator("button.play").click();
+});
+
+test("the camera moves from frame to frame", async () => {
+  await page.locator('.view-layers input[value="registered"]').uncheck();
+  await page.locator('.view-layers input[value="path"]').uncheck();
+  await changes(canvas, () => page.locator(".view-timeline input").fill("0"), "the camera");
+  await changes(canvas, () => page.locator(".view-timeline input").fill("4"), "the camera");
+});
+
+test("no error, and nothing asked for beyond the file", () => assertQuiet(page));
