@@ -136,6 +136,19 @@ DepthUnits depth_units_of(const Parameters& section) {
   return units;
 }
 
+SequenceSettings sequence_settings(const Parameters& section, CameraChoice camera) {
+  return {section.text("folder"), selection_of(section), depth_units_of(section), std::move(camera)};
+}
+
+Sequence sequence_of(const SequenceSettings& settings, const std::vector<Sequence::Item>& frames,
+                     const std::string& where) {
+  return {name_of_folder(settings.folder),
+          selected(frames, settings.selection, where),
+          settings.camera,
+          settings.units,
+          {}};
+}
+
 std::string name_of_folder(const std::string& path) {
   const std::filesystem::path folder(path);
   return (folder.has_filename() ? folder : folder.parent_path()).filename().string();

@@ -41,6 +41,21 @@ struct Sequence {
   std::vector<std::string> warnings;
 };
 
+/// What sources of the sequence in a folder are told alike.
+struct SequenceSettings {
+  std::string folder;
+  Selection selection;
+  DepthUnits units;
+  CameraChoice camera;
+};
+
+SequenceSettings sequence_settings(const Parameters& section, CameraChoice camera);
+
+/// Those of the frames that are selected, by the name of the folder. Throws DataError, which begins with
+/// `where`, when none is left.
+Sequence sequence_of(const SequenceSettings& settings, const std::vector<Sequence::Item>& frames,
+                     const std::string& where);
+
 /// What a folder is called, whether its path ends with a slash or not.
 std::string name_of_folder(const std::string& path);
 
