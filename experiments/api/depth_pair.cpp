@@ -7,7 +7,6 @@
 
 #include "experiments/datasets/depth_doubts.h"
 #include "framework/core/error.h"
-#include "framework/geometry/has_point.h"
 
 namespace pliant {
 namespace {
@@ -70,12 +69,6 @@ class ViewReader {
   std::string whose_;
 };
 
-bool sees_something(const Frame& frame) {
-  for (std::size_t i = 0; i < frame.depth.size(); ++i)
-    if (has_point(frame, i)) return true;
-  return false;
-}
-
 }  // namespace
 
 FramePair make_depth_pair(const DepthView& source, const DepthView& target, const Camera& camera) {
@@ -85,7 +78,6 @@ FramePair make_depth_pair(const DepthView& source, const DepthView& target, cons
   FramePair pair{"depth images", camera, ViewReader(camera, "the source's").frame(source),
                  ViewReader(camera, "the target's").frame(target)};
   const auto warn = [&](const Frame& frame, double scale, const char* whose) {
-    if (!sees_something(frame)) return;  // an error or a warning of its own in what follows
     for (auto& doubt : doubts_about_depth(frame, scale, whose)) pair.warnings.push_back(std::move(doubt));
   };
   warn(pair.source, source.depth_scale, "the source");

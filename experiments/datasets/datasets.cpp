@@ -3,6 +3,7 @@
 #include "experiments/datasets/deepdeform.h"
 #include "experiments/datasets/image_folder.h"
 #include "experiments/datasets/mesh_sources.h"
+#include "experiments/datasets/openni.h"
 #include "experiments/datasets/rendered_mesh.h"
 #include "experiments/datasets/rgbd_pair.h"
 #include "experiments/datasets/surface_pair.h"
@@ -16,6 +17,7 @@ void register_datasets(Registry& registry) {
   register_image_folder(registry);
   register_figures(registry, figure_kinds());
   register_gltf(registry);
+  register_openni(registry);
   register_rendered_mesh(registry);
   register_rgbd_pair(registry);
   register_surface_pair(registry);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/geometry/rig.h"
 
 namespace pliant {
 namespace {
@@ -46,6 +47,25 @@ Intrinsics intrinsics_of(const CameraChoice& choice, int width, int height) {
   camera.width = width;
   camera.height = height;
   return check_intrinsics(camera, choice.place);
+}
+
+Eigen::Isometry3d rigid_matrix(const Parameters& section, const std::string& name) {
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix(section.reals(name).data());
+  if (!is_rigid(matrix))
+    throw ConfigError(fmt::format(
+        "{}: '{}' is no rigid motion; expected a 4x4 matrix row by row: [R, t; 0 0 0 1] with a rotation R "
+        "and t in mm",
+        section.place(), name));
+  return Eigen::Isometry3d(matrix);
+}
+
+std::vector<std::string> doubts_about_distance(const Eigen::Isometry3d& color_from_depth,
+                                               const std::string& name) {
+  const double distance = color_from_depth.translation().norm();
+  if (distance == 0 || distance >= 1) return {};
+  return {fmt::format(
+      "{}: 'color_from_depth' puts the cameras {:g} mm apart; if it counts in metres, write {:g} mm", name,
+      distance, 1000 * distance)};
 }
 
 }  // namespace pliant

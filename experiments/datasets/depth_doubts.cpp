@@ -115,6 +115,7 @@ std::string doubt_about_density(const Frame& frame, const std::string& path) {
 
 std::vector<std::string> doubts_about_depth(const Frame& frame, double depth_scale, const std::string& path) {
   std::vector<std::string> doubts;
+  if (!sees_something(frame)) return doubts;
   for (auto& doubt :
        {doubt_about_unit(depths_of(frame), depth_scale, path), doubt_about_density(frame, path)})
     if (!doubt.empty()) doubts.push_back(doubt);

@@ -15,7 +15,7 @@ namespace pliant {
 ///  - most points have fewer than three others in the window that normals are fitted to, or even in the
 ///  widest
 ///    one: what can be had from it is coarse.
-/// Only pixels inside the mask count, where there is one.
+/// Only pixels inside the mask count, where there is one. Nothing is said of a frame that sees nothing.
 std::vector<std::string> doubts_about_depth(const Frame& frame, double depth_scale, const std::string& path);
 
 }  // namespace pliant

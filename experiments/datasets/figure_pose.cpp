@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -56,18 +55,10 @@ std::optional<JointAxis> find_axis(const std::vector<Joint>& joints, const std::
   return JointAxis{*joint, static_cast<Eigen::Index>(axis)};
 }
 
-/// Adds `share` of a named pose.
-void add(const Mesh& mesh, const NamedPose& named, double share, FigurePose& pose) {
-  for (const auto& [name, weight] : named.weights)
-    if (const auto target = find(mesh.targets, name)) pose.weights[*target] += share * weight;
-  for (const NamedPose::Turn& turn : named.turns)
-    if (const auto joint = find(mesh.joints, turn.joint)) pose.degrees[*joint] += share * turn.degrees;
-}
-
 /// Adds what a word asks for; false when the figure has nothing of that name.
 bool add(const Figure& figure, const Word& word, FigurePose& pose) {
   if (const auto named = find(figure.poses, word.name))
-    add(figure.mesh, figure.poses[*named], word.value, pose);
+    add_pose(figure.mesh, figure.poses[*named], word.value, pose);
   else if (const auto target = find(figure.mesh.targets, word.name))
     pose.weights[*target] += word.value;
   else if (const auto turned = find_axis(figure.mesh.joints, word.name))
@@ -99,11 +90,6 @@ std::vector<std::string> all_names(const Figure& figure) {
 
 }  // namespace
 
-FigurePose rest_of(const Mesh& mesh) {
-  return {std::vector<double>(mesh.targets.size(), 0),
-          std::vector<Eigen::Vector3d>(mesh.joints.size(), Eigen::Vector3d::Zero())};
-}
-
 FigurePose read_pose(const Figure& figure, const std::vector<std::string>& words, const std::string& place) {
   FigurePose pose = rest_of(figure.mesh);
   std::set<std::string> given;
@@ -125,18 +111,6 @@ FigurePose between(const FigurePose& from, const FigurePose& to, double share) {
   for (std::size_t i = 0; i < pose.degrees.size(); ++i)
     pose.degrees[i] += share * (to.degrees[i] - from.degrees[i]);
   return pose;
-}
-
-MeshPose on_top(MeshPose beneath, const FigurePose& pose) {
-  constexpr double degree = std::numbers::pi / 180;
-  for (std::size_t i = 0; i < pose.weights.size(); ++i) beneath.weights[i] += pose.weights[i];
-  for (std::size_t i = 0; i < pose.degrees.size(); ++i) {
-    const Eigen::Vector3d radians = degree * pose.degrees[i];
-    beneath.joints[i] = beneath.joints[i] * Eigen::AngleAxisd(radians.z(), Eigen::Vector3d::UnitZ()) *
-                        Eigen::AngleAxisd(radians.y(), Eigen::Vector3d::UnitY()) *
-                        Eigen::AngleAxisd(radians.x(), Eigen::Vector3d::UnitX());
-  }
-  return beneath;
 }
 
 }  // namespace pliant

@@ -23,24 +23,6 @@ void drop_farther(DepthImage& depth, double limit) {
       depth.data(), depth.data() + depth.size(), [limit](float value) { return value > limit; }, 0.0f);
 }
 
-void check_has_points(const Frame& frame, const FrameFiles& files, std::optional<double> max_depth) {
-  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
-    if (has_point(frame, i)) return;
-  }
-  throw DataError(fmt::format("{}: no valid depth{}{}", files.depth,
-                              max_depth ? fmt::format(" up to {} mm", *max_depth) : "",
-                              frame.mask.empty() ? "" : " inside the mask " + files.mask));
-}
-
-MaskImage read_object_mask(const std::string& path) {
-  MaskImage mask = read_mask(path);
-  const auto is_object = [](std::uint8_t value) { return value != 0; };
-  if (std::none_of(mask.pixels().begin(), mask.pixels().end(), is_object)) {
-    throw DataError(fmt::format("{}: the mask is empty", path));
-  }
-  return mask;
-}
-
 }  // namespace
 
 Frame read_frame(const FrameFiles& files, const DepthUnits& units, bool color_has_own_camera) {
@@ -52,12 +34,21 @@ Frame read_frame(const FrameFiles& files, const DepthUnits& units, bool color_ha
     if (!color_has_own_camera) check_size(frame.color, files.color, frame.depth, depth_named(files.depth));
   }
   if (!files.mask.empty()) {
-    frame.mask = read_object_mask(files.mask);
+    frame.mask = read_mask(files.mask);
     check_size(frame.mask, files.mask, frame.depth, depth_named(files.depth));
   }
   if (units.max_depth) drop_farther(frame.depth, *units.max_depth);
-  check_has_points(frame, files, units.max_depth);
   return frame;
+}
+
+void check_sees_something(const Frame& frame, const FrameFiles& files, const DepthUnits& units) {
+  if (sees_something(frame)) return;
+  const auto is_object = [](std::uint8_t value) { return value != 0; };
+  if (!frame.mask.empty() && std::none_of(frame.mask.pixels().begin(), frame.mask.pixels().end(), is_object))
+    throw DataError(fmt::format("{}: the mask is empty", files.mask));
+  throw DataError(fmt::format("{}: no valid depth{}{}", files.depth,
+                              units.max_depth ? fmt::format(" up to {} mm", *units.max_depth) : "",
+                              frame.mask.empty() ? "" : " inside the mask " + files.mask));
 }
 
 PairTruth read_truth(const TruthFiles& files, const Frame& source, const std::string& depth) {

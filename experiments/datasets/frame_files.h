@@ -23,9 +23,12 @@ struct DepthUnits {
 };
 
 /// Reads the images, depth in mm. Throws DataError naming the file when one cannot be read, when a mask has
-/// not the depth's size or is empty, or when no depth is left (inside the mask); also when the colour has not
-/// the depth's size, unless a camera of its own sees it.
+/// not the depth's size; also when the colour has not the depth's size, unless a camera of its own sees it.
 Frame read_frame(const FrameFiles& files, const DepthUnits& units, bool color_has_own_camera = false);
+
+/// Throws DataError naming the file when a frame sees nothing: its mask is empty, or no depth is left (inside
+/// the mask).
+void check_sees_something(const Frame& frame, const FrameFiles& files, const DepthUnits& units);
 
 /// The files of what is known of a pair. A path is empty where there is no file.
 struct TruthFiles {

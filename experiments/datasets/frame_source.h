@@ -36,8 +36,8 @@ class FrameSource {
   static constexpr const char* kind = "data";
   virtual ~FrameSource() = default;
   /// A stream from the first frame on; it may outlive the source but not the device, on which frames may be
-  /// rendered. Every stream opened with one seed on the same kind of device gives the same bits. Throws
-  /// DataError naming the file at fault.
+  /// rendered. Every stream opened with one seed on the same kind of device gives the same bits, unless a
+  /// live camera is behind it. Throws DataError naming the file at fault.
   virtual std::unique_ptr<DataStream> open(Device& device, std::uint64_t seed) const = 0;
 };
 

@@ -29,62 +29,54 @@ std::string pattern_of(const Parameters& section, const char* key) {
   return pattern;
 }
 
+CameraChoice camera_of(const Parameters& section) {
+  if (auto camera = camera_choice(section)) return *std::move(camera);
+  throw ConfigError(section.place() + ": the camera is missing; expected 'intrinsics', or fx, fy, cx and cy");
+}
+
 class ImageFolder : public FrameSource {
  public:
   explicit ImageFolder(const Parameters& section)
-      : folder_(section.text("folder")),
-        depth_(pattern_of(section, "depth")),
+      : depth_(pattern_of(section, "depth")),
         color_(pattern_of(section, "color")),
         mask_(pattern_of(section, "mask")),
         rate_(section.real("rate")),
-        selection_(selection_of(section)),
-        units_(depth_units_of(section)) {
-    auto camera = camera_choice(section);
-    if (!camera)
-      throw ConfigError(section.place() +
-                        ": the camera is missing; expected 'intrinsics', or fx, fy, cx and cy");
-    camera_ = *std::move(camera);
-  }
+        settings_(sequence_settings(section, camera_of(section))) {}
 
   std::unique_ptr<DataStream> open(Device& /*device*/, std::uint64_t /*seed*/) const override {
-    Sequence sequence;
-    sequence.name = name_of_folder(folder_);
-    sequence.frames = selected(frames(), selection_, (std::filesystem::path(folder_) / depth_).string());
+    const std::string& folder = settings_.folder;
+    Sequence sequence = sequence_of(settings_, frames(), (std::filesystem::path(folder) / depth_).string());
     const auto has_mask = [](const Sequence::Item& frame) { return !frame.files.mask.empty(); };
     const auto masks = std::count_if(sequence.frames.begin(), sequence.frames.end(), has_mask);
     if (!mask_.empty() && masks < static_cast<long>(sequence.frames.size()))
       sequence.warnings.push_back(fmt::format("{}: {} of {} frames have no mask, all of their depth counts",
-                                              folder_, static_cast<long>(sequence.frames.size()) - masks,
+                                              folder, static_cast<long>(sequence.frames.size()) - masks,
                                               sequence.frames.size()));
-    sequence.camera = camera_;
-    sequence.units = units_;
     return open_sequence(std::move(sequence));
   }
 
  private:
   std::vector<Sequence::Item> frames() const {
-    const FilesByKey colors = color_.empty() ? FilesByKey() : matching_files(folder_, color_);
-    const FilesByKey masks = mask_.empty() ? FilesByKey() : matching_files(folder_, mask_);
+    const std::string& folder = settings_.folder;
+    const FilesByKey colors = color_.empty() ? FilesByKey() : matching_files(folder, color_);
+    const FilesByKey masks = mask_.empty() ? FilesByKey() : matching_files(folder, mask_);
     std::vector<Sequence::Item> frames;
-    for (const auto& [key, depth] : matching_files(folder_, depth_)) {
+    for (const auto& [key, depth] : matching_files(folder, depth_)) {
       Sequence::Item frame{{depth, "", ""}, static_cast<double>(frames.size()) / rate_};
       if (const auto color = colors.find(key); color != colors.end()) frame.files.color = color->second;
       if (const auto mask = masks.find(key); mask != masks.end()) frame.files.mask = mask->second;
       if (!color_.empty() && frame.files.color.empty())
-        throw DataError(fmt::format("{}: no colour like {} for {}", folder_, color_, depth));
+        throw DataError(fmt::format("{}: no colour like {} for {}", folder, color_, depth));
       frames.push_back(std::move(frame));
     }
     return frames;
   }
 
-  std::string folder_;
   std::string depth_;  // patterns
   std::string color_;
   std::string mask_;
   double rate_;  // frames a second
-  Selection selection_;
-  DepthUnits units_;
-  CameraChoice camera_;
+  SequenceSettings settings_;
 };
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "experiments/datasets/mesh_scene.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+
+#include "framework/geometry/bounding_box.h"
 
 namespace pliant {
 namespace {
@@ -59,21 +59,12 @@ std::vector<Eigen::Vector3d> MeshScene::vertices_at(double time) const {
 }
 
 Eigen::AlignedBox3d box_around(const Mesh& mesh, const FigurePose& base) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : mesh.deform(on_top(mesh.rest(), base))) box.extend(vertex);
-  return box;
-}
-
-std::string MeshScene::described_size() const {
-  const Eigen::Vector3d size = box.sizes();
-  return fmt::format("it is {:.6g} x {:.6g} x {:.6g} mm", size.x(), size.y(), size.z());
+  return box_around(mesh.deform(on_top(mesh.rest(), base)));
 }
 
 bool is_inside(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& vertices,
                const std::vector<Eigen::Vector3i>& triangles) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : vertices) box.extend(vertex);
-  if (!box.contains(point)) return false;
+  if (!box_around(vertices).contains(point)) return false;
   const auto corner = [&](int vertex) -> Eigen::Vector3d {
     return vertices[static_cast<std::size_t>(vertex)] - point;
   };

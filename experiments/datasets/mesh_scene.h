@@ -60,8 +60,6 @@ struct MeshScene {
   SceneKey state_at(double time) const;
   /// The vertices at some time, mm in the depth camera's frame.
   std::vector<Eigen::Vector3d> vertices_at(double time) const;
-  /// "it is 1 x 2 x 3 mm".
-  std::string described_size() const;
 
  private:
   MeshPose beneath_at(double time) const;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "experiments/datasets/mesh_size.h"
 #include "experiments/datasets/mesh_stream.h"
 #include "experiments/datasets/scene_section.h"
 #include "framework/core/error.h"
@@ -15,10 +16,6 @@
 
 namespace pliant {
 namespace {
-
-// What depth cameras are pointed at is seldom beyond these.
-constexpr double smallest_mesh = 10;    // mm
-constexpr double largest_mesh = 10000;  // mm
 
 PlayedAnimation read_animation(const Parameters& section, const std::vector<Animation>& animations,
                                const MeshScene& scene) {
@@ -47,11 +44,8 @@ std::unique_ptr<FrameSource> make_gltf(const Parameters& section, const Registry
       read_scene(section, figure, std::move(identity), file, std::filesystem::path(file).stem().string());
   if (section.has("animation")) scene.animation = read_animation(section, read.animations, scene);
   scene.warnings = std::move(read.warnings);
-  const double length = scene.box.sizes().maxCoeff();
-  if (length < smallest_mesh || length > largest_mesh)
-    scene.warnings.push_back(
-        fmt::format("{}: {}; if the file counts in another unit than {:g} mm, say which by mesh_scale", file,
-                    scene.described_size(), scale));
+  if (is_odd_size(scene.box))
+    scene.warnings.push_back(fmt::format("{}: {}", file, described_size(scene.box, scale, "mesh_scale")));
   return std::make_unique<MeshSource>(std::move(scene));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "experiments/datasets/mesh_size.h"
 #include "framework/core/error.h"
 #include "framework/geometry/point_set.h"
 
@@ -30,16 +31,21 @@ MeshStream::Seen MeshStream::see(int number) const {
   const auto vertices = scene_->vertices_at(scene_->time_of(number));
   if (is_inside(Eigen::Vector3d::Zero(), vertices, scene_->mesh.triangles))
     throw DataError(fmt::format("{}: the camera is inside the mesh in frame {}; {}", scene_->what, number,
-                                scene_->described_size()));
+                                described_size(scene_->box)));
   Array<float> points = flatten(vertices);
   MeshView view = renderer_.render(points, scene_->rig.depth);
-  return {std::move(points), std::move(view)};
+  return {number, std::move(points), std::move(view)};
+}
+
+const MeshStream::Seen& MeshStream::latest(int number) const {
+  if (!latest_ || latest_->number != number) latest_ = see(number);
+  return *latest_;
 }
 
 std::optional<Frame> MeshStream::next() {
   if (given_ == scene_->frames) return std::nullopt;
   ++given_;
-  Seen seen = see(given_);
+  const Seen& seen = latest(given_);
   Frame frame;
   frame.time = scene_->time_of(given_);
   frame.color = color_of(seen);
@@ -48,7 +54,7 @@ std::optional<Frame> MeshStream::next() {
   if (scene_->sensor.is_on())
     frame.depth = depth_image(sensor_.sense(device_, seen.view.depth, static_cast<std::uint32_t>(given_)),
                               scene_->rig.depth);
-  if (given_ == 1) first_ = std::move(seen);
+  if (given_ == 1) first_ = std::exchange(latest_, std::nullopt);
   return frame;
 }
 
@@ -70,19 +76,19 @@ void MeshStream::check_is_seen(const DepthImage& exact, int number) const {
   throw DataError(
       fmt::format("{}: no pixel of the camera sees the mesh in frame {}; {}, and its middle {:.6g} mm from "
                   "the first camera",
-                  scene_->what, number, scene_->described_size(), scene_->distance));
+                  scene_->what, number, described_size(scene_->box), scene_->distance));
 }
 
 std::optional<PairTruth> MeshStream::truth(int number) const {
   if (number < 2 || number > scene_->frames) return std::nullopt;
   if (!first_) first_ = see(1);
-  const Seen target = see(number);
+  const Seen& target = latest(number);
   TrueMotion motion = renderer_.move(first_->view, target.vertices, target.view).read(scene_->rig.depth);
   return PairTruth{std::move(motion.scene_flow), std::move(motion.optical_flow), std::move(motion.visible)};
 }
 
 DepthImage MeshStream::exact_depth(int number) const {
-  return depth_image(see(number).view.depth, scene_->rig.depth);
+  return depth_image(latest(number).view.depth, scene_->rig.depth);
 }
 
 std::optional<Eigen::Isometry3d> MeshStream::camera_pose(int number) const {

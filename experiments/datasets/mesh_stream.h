@@ -35,10 +35,14 @@ class MeshStream : public DataStream {
 
  private:
   struct Seen {
+    int number = 0;         ///< of the frame
     Array<float> vertices;  ///< mm in the depth camera's frame
     MeshView view;
   };
   Seen see(int number) const;
+  /// The same of the frame that was seen last, without seeing it again: its truth is asked for after it is
+  /// given.
+  const Seen& latest(int number) const;
   ColorImage color_of(const Seen& seen) const;
   void check_is_seen(const DepthImage& exact, int number) const;
 
@@ -48,6 +52,7 @@ class MeshStream : public DataStream {
   DepthSensor sensor_;
   Array<float> rest_;  // vertices at rest in the mesh's own frame, which colour belongs to
   mutable std::optional<Seen> first_;
+  mutable std::optional<Seen> latest_;
   int given_ = 0;
 };
 

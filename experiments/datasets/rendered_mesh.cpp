@@ -13,12 +13,14 @@
 #include <utility>
 
 #include "experiments/datasets/kinect_noise.h"
+#include "experiments/datasets/mesh_size.h"
 #include "experiments/datasets/rigid_motion.h"
 #include "experiments/datasets/stored_pair.h"
 #include "experiments/datasets/texture.h"
 #include "experiments/datasets/virtual_camera.h"
 #include "framework/core/error.h"
 #include "framework/core/nearest.h"
+#include "framework/geometry/bounding_box.h"
 #include "framework/geometry/render.h"
 #include "framework/io/gltf.h"
 
@@ -26,10 +28,6 @@ namespace pliant {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-
-// What depth cameras are pointed at is seldom beyond these.
-constexpr double smallest_mesh = 10;    // mm
-constexpr double largest_mesh = 10000;  // mm
 
 /// The weight in "name=weight", none when that is not how the item is written.
 std::optional<double> parse_weight(const std::string& item, std::size_t equals) {
@@ -120,11 +118,7 @@ std::vector<double> RenderedMesh::weights_of(const std::string& key,
 }
 
 /// Of the neutral mesh, in mm in its own frame, so that an expression does not move the rest of the face.
-Eigen::AlignedBox3d RenderedMesh::box() const {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : mesh_.deform(identity_)) box.extend(vertex);
-  return box;
-}
+Eigen::AlignedBox3d RenderedMesh::box() const { return box_around(mesh_.deform(identity_)); }
 
 /// From the mesh's frame (y up, looking along +z) to the camera's, the middle of the mesh on the optical
 /// axis.
@@ -142,15 +136,11 @@ void RenderedMesh::check_is_seen(const Image<Fragment>& seen, const char* which)
   if (!is_inside && std::any_of(pixels.begin(), pixels.end(), shows)) return;
   throw DataError(fmt::format("{}: {} {} mesh {:g} mm away; {}", settings_.mesh,
                               is_inside ? "the camera is inside the" : "no pixel of the camera sees the",
-                              which, settings_.distance, described_size()));
+                              which, settings_.distance, size_and_unit()));
 }
 
-std::string RenderedMesh::described_size() const {
-  const Eigen::Vector3d size = box().sizes();
-  return fmt::format(
-      "it is {:.6g} x {:.6g} x {:.6g} mm; if the file counts in another unit than {:g} mm, say which "
-      "by mesh_scale",
-      size.x(), size.y(), size.z(), settings_.mesh_scale);
+std::string RenderedMesh::size_and_unit() const {
+  return described_size(box(), settings_.mesh_scale, "mesh_scale");
 }
 
 std::unique_ptr<DataStream> RenderedMesh::open(Device& /*device*/, std::uint64_t seed) const {
@@ -169,8 +159,7 @@ std::unique_ptr<DataStream> RenderedMesh::open(Device& /*device*/, std::uint64_t
   pair.name = fmt::format("{}, {} to {}", std::filesystem::path(settings_.mesh).stem().string(),
                           described(settings_.source), described(settings_.target));
   pair.rig.depth = camera;
-  if (const double length = box().sizes().maxCoeff(); length < smallest_mesh || length > largest_mesh)
-    pair.warnings.push_back(fmt::format("{}: {}", settings_.mesh, described_size()));
+  if (is_odd_size(box())) pair.warnings.push_back(fmt::format("{}: {}", settings_.mesh, size_and_unit()));
   pair.source = picture_of(seen_source, mesh_.triangles, at_rest);
   pair.target = picture_of(seen_target, mesh_.triangles, at_rest);
   pair.truth = PairTruth{scene_flow(seen_source, mesh_.triangles, source, target)};

@@ -47,7 +47,7 @@ class RenderedMesh : public FrameSource {
   std::vector<double> weights_of(const std::string& key, const std::vector<std::string>& expression) const;
   Eigen::AlignedBox3d box() const;
   Eigen::Affine3d placement() const;
-  std::string described_size() const;
+  std::string size_and_unit() const;
   void check_is_seen(const Image<Fragment>& seen, const char* which) const;
 
   Settings settings_;

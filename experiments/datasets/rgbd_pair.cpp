@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "experiments/datasets/depth_camera.h"
 #include "experiments/datasets/depth_doubts.h"
 #include "experiments/datasets/stored_pair.h"
 #include "framework/core/error.h"
@@ -13,16 +14,6 @@
 
 namespace pliant {
 namespace {
-
-/// Two cameras that stand closer than their lenses could were probably measured in metres.
-std::vector<std::string> doubts_about_distance(const Eigen::Isometry3d& color_from_depth,
-                                               const std::string& name) {
-  const double distance = color_from_depth.translation().norm();
-  if (distance == 0 || distance >= 1) return {};
-  return {fmt::format(
-      "{}: 'color_from_depth' puts the cameras {:g} mm apart; if it counts in metres, write {:g} mm", name,
-      distance, 1000 * distance)};
-}
 
 /// Gives the rig the colour camera of its own, whose images have the size of those that there are.
 void add_color_camera(const RgbdPair::Settings& settings, StoredPair& pair) {
@@ -41,17 +32,6 @@ std::string path_or_empty(const Parameters& section, const std::string& name) {
   return section.has(name) ? section.text(name) : "";
 }
 
-/// Row by row. Throws ConfigError unless it is a rigid motion.
-Eigen::Isometry3d rigid_motion(const Parameters& section, const std::string& name) {
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix(section.reals(name).data());
-  if (!is_rigid(matrix))
-    throw ConfigError(fmt::format(
-        "{}: '{}' is no rigid motion; expected a 4x4 matrix row by row: [R, t; 0 0 0 1] with a rotation R "
-        "and t in mm",
-        section.place(), name));
-  return Eigen::Isometry3d(matrix);
-}
-
 void read_color_camera(const Parameters& section, RgbdPair::Settings& settings) {
   if (!section.has("color_intrinsics") && !section.has("color_from_depth")) return;
   if (!section.has("color_intrinsics") || !section.has("color_from_depth"))
@@ -62,7 +42,7 @@ void read_color_camera(const Parameters& section, RgbdPair::Settings& settings) 
     throw ConfigError(
         fmt::format("{}: 'color_intrinsics' without a 'color' of 'source' or 'target'", section.place()));
   settings.color_intrinsics = section.text("color_intrinsics");
-  settings.color_from_depth = rigid_motion(section, "color_from_depth");
+  settings.color_from_depth = rigid_matrix(section, "color_from_depth");
 }
 
 FrameFiles frame_files(const Parameters& section) {
@@ -86,7 +66,9 @@ std::unique_ptr<DataStream> RgbdPair::open(Device& /*device*/, std::uint64_t /*s
   const DepthUnits units{settings_.depth_scale, settings_.max_depth};
   const bool has_color_camera = !settings_.color_intrinsics.empty();
   pair.source = read_frame(settings_.source, units, has_color_camera);
+  check_sees_something(pair.source, settings_.source, units);
   pair.target = read_frame(settings_.target, units, has_color_camera);
+  check_sees_something(pair.target, settings_.target, units);
   check_size(pair.target.depth, settings_.target.depth, pair.source.depth,
              depth_named(settings_.source.depth));
   Intrinsics intrinsics =

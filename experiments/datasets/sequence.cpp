@@ -9,6 +9,7 @@
 
 #include "experiments/datasets/depth_doubts.h"
 #include "framework/core/error.h"
+#include "framework/geometry/has_point.h"
 
 namespace pliant {
 namespace {
@@ -49,7 +50,15 @@ class SequenceStream : public DataStream {
 
   std::string name() const override { return sequence_.name; }
   const Rig& rig() const override { return rig_; }
-  std::vector<std::string> warnings() const override { return warnings_; }
+  bool reads_on_host() const override { return true; }
+
+  std::vector<std::string> warnings() const override {
+    std::vector<std::string> all = warnings_;
+    if (blind_ > 0)
+      all.push_back(fmt::format("{}: {} of {} frames see nothing, the first is {}", sequence_.name, blind_,
+                                given_, sequence_.frames[first_blind_].files.depth));
+    return all;
+  }
 
   std::optional<Frame> next() override {
     if (given_ == sequence_.frames.size()) return std::nullopt;
@@ -59,8 +68,14 @@ class SequenceStream : public DataStream {
     check_size(frame.depth, item.files.depth, Size{rig_.depth},
                depth_named(sequence_.frames.front().files.depth));
     frame.time = item.time;
+    if (!sees_something(frame) && blind_++ == 0) first_blind_ = given_;
     ++given_;
     return frame;
+  }
+
+  std::optional<Eigen::Isometry3d> camera_pose(int number) const override {
+    const auto index = static_cast<std::size_t>(number - 1);
+    return index < sequence_.frames.size() ? sequence_.frames[index].camera_pose : std::nullopt;
   }
 
   std::optional<PairTruth> truth(int number) const override {
@@ -83,16 +98,22 @@ class SequenceStream : public DataStream {
   std::vector<std::string> warnings_;
   std::optional<Frame> first_;
   std::size_t given_ = 0;
+  std::size_t blind_ = 0;  // frames that see nothing
+  std::size_t first_blind_ = 0;
 };
 
 }  // namespace
 
-ParameterTable with_sequence(std::vector<Parameter> rows, double depth_scale) {
+void add_selection(std::vector<Parameter>& rows) {
   rows.push_back(
       integer("first", 1).range(1, 10'000'000).doc("the first frame that is taken, counted from 1"));
   rows.push_back(
       integer("frames").range(1, 10'000'000).optional().doc("how many frames are taken; all by default"));
   rows.push_back(integer("step", 1).range(1, 1'000'000).doc("of so many frames one is taken"));
+}
+
+ParameterTable with_sequence(std::vector<Parameter> rows, double depth_scale) {
+  add_selection(rows);
   rows.push_back(real("depth_scale", depth_scale)
                      .unit("mm")
                      .above(0)
@@ -113,6 +134,19 @@ DepthUnits depth_units_of(const Parameters& section) {
   DepthUnits units{section.real("depth_scale")};
   if (section.has("max_depth")) units.max_depth = section.real("max_depth");
   return units;
+}
+
+SequenceSettings sequence_settings(const Parameters& section, CameraChoice camera) {
+  return {section.text("folder"), selection_of(section), depth_units_of(section), std::move(camera)};
+}
+
+Sequence sequence_of(const SequenceSettings& settings, const std::vector<Sequence::Item>& frames,
+                     const std::string& where) {
+  return {name_of_folder(settings.folder),
+          selected(frames, settings.selection, where),
+          settings.camera,
+          settings.units,
+          {}};
 }
 
 std::string name_of_folder(const std::string& path) {

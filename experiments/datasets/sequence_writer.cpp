@@ -7,6 +7,7 @@
 
 #include "framework/core/error.h"
 #include "framework/geometry/color_at_depth.h"
+#include "framework/geometry/prefetched_stream.h"
 #include "framework/io/file.h"
 #include "framework/io/images.h"
 #include "framework/io/scene_flow.h"
@@ -127,19 +128,27 @@ class SequenceWriter {
 
 }  // namespace
 
-int write_sequence(DataStream& stream, SequenceLayout layout, const fs::path& folder,
-                   const ProgressSink& progress) {
-  CheckedStream frames(stream);
+WrittenSequence write_sequence(DataStream& stream, SequenceLayout layout, const fs::path& folder,
+                               const ProgressSink& progress) {
+  constexpr std::size_t frames_ahead = 8;
+  PrefetchedStream ahead(stream, frames_ahead);
+  CheckedStream frames(ahead);
   SequenceWriter writer(layout, folder, stream.rig());
-  while (auto frame = frames.next()) {
-    const int number = writer.count() + 1;
-    writer.add(*std::move(frame), stream.camera_pose(number));
-    if (number > 1)
-      if (const auto truth = stream.truth(number)) writer.add_truth(*truth);
-    if (progress) progress({"writing " + stream.name(), 0, fmt::format("frame {}", number)});
+  std::exception_ptr lost;
+  try {
+    while (auto frame = frames.next()) {
+      const int number = writer.count() + 1;
+      writer.add(*std::move(frame), stream.camera_pose(number));
+      if (number > 1)
+        if (const auto truth = stream.truth(number)) writer.add_truth(*truth);
+      if (progress) progress({"writing " + stream.name(), 0, fmt::format("frame {}", number)});
+    }
+  } catch (const SourceLost&) {
+    if (writer.count() == 0) throw;
+    lost = std::current_exception();
   }
   writer.finish();
-  return writer.count();
+  return {writer.count(), lost};
 }
 
 }  // namespace pliant

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 
 #include "experiments/datasets/frame_source.h"
@@ -17,14 +18,20 @@ enum class SequenceLayout {
   deepdeform
 };
 
+struct WrittenSequence {
+  int frames = 0;
+  /// The SourceLost that a live source ended with; what came before it is written.
+  std::exception_ptr lost = nullptr;
+};
+
 /// Writes all frames of a stream into a folder, which is made where it is not there, with what is known of
 /// the first frame and each other one: scene_flow/object_FIRST_NUMBER.sflow (metres),
 /// optical_flow/object_FIRST_NUMBER.oflow (pixels) and visible/object_FIRST_NUMBER.png, numbers from 0 on;
 /// masks, where frames have some, as mask/NUMBER_object.png; and intrinsics.txt (4x4). Colour of a camera of
 /// its own is carried to the depth's pixels, as both layouts have it. Depth is rounded to the units that
-/// files count in. Returns the number of frames. Throws DataError as the stream does, and naming the file
-/// that cannot be written.
-int write_sequence(DataStream& stream, SequenceLayout layout, const std::filesystem::path& folder,
-                   const ProgressSink& progress = {});
+/// files count in. Streams are read ahead where they may be, so that a camera drops no frame when a file
+/// takes long. Throws DataError as the stream does, and naming the file that cannot be written.
+WrittenSequence write_sequence(DataStream& stream, SequenceLayout layout, const std::filesystem::path& folder,
+                               const ProgressSink& progress = {});
 
 }  // namespace pliant

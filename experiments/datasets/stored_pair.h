@@ -26,6 +26,7 @@ class StoredPairStream : public DataStream {
   const Rig& rig() const override { return pair_.rig; }
   std::optional<Frame> next() override;
   std::vector<std::string> warnings() const override { return pair_.warnings; }
+  bool reads_on_host() const override { return true; }
   std::optional<PairTruth> truth(int number) const override;
 
  private:

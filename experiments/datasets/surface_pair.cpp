@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <numbers>
 
+#include "experiments/datasets/mesh_size.h"
 #include "experiments/datasets/stored_pair.h"
 #include "experiments/datasets/virtual_camera.h"
 #include "framework/core/error.h"
+#include "framework/geometry/bounding_box.h"
 #include "framework/geometry/render.h"
 #include "framework/geometry/rig.h"
 #include "framework/io/surface_mesh.h"
@@ -25,11 +27,7 @@ struct PlacedSurface {
   SurfaceMesh mesh;
   Points points;  // mm
 
-  Eigen::AlignedBox3d box() const {
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& point : points) box.extend(point);
-    return box;
-  }
+  Eigen::AlignedBox3d box() const { return box_around(points); }
 };
 
 PlacedSurface read_surface(const std::string& path, double unit) {
@@ -38,24 +36,16 @@ PlacedSurface read_surface(const std::string& path, double unit) {
   return surface;
 }
 
-std::string described_size(const PlacedSurface& surface, double unit) {
-  const Eigen::Vector3d size = surface.box().sizes();
-  return fmt::format(
-      "{}: it is {:.6g} x {:.6g} x {:.6g} mm; if the file counts in another unit than {:g} mm, say which by "
-      "unit",
-      surface.path, size.x(), size.y(), size.z(), unit);
+std::string place_and_size(const PlacedSurface& surface, double unit) {
+  return fmt::format("{}: {}", surface.path, described_size(surface.box(), unit, "unit"));
 }
 
 std::vector<std::string> doubts_about_size(const PlacedSurface& source, const PlacedSurface& target,
                                            double unit) {
-  // What depth cameras are pointed at is seldom beyond these.
-  constexpr double smallest = 10;    // mm
-  constexpr double largest = 10000;  // mm
   constexpr double most_unlike = 3;
   std::vector<std::string> doubts;
   for (const PlacedSurface* surface : {&source, &target})
-    if (const double length = surface->box().sizes().maxCoeff(); length < smallest || length > largest)
-      doubts.push_back(described_size(*surface, unit));
+    if (is_odd_size(surface->box())) doubts.push_back(place_and_size(*surface, unit));
   const double ratio = source.box().diagonal().norm() / target.box().diagonal().norm();
   if (ratio > most_unlike || ratio < 1 / most_unlike)
     doubts.push_back(fmt::format("{} is {:.3g} times as large as {}; do both count in one unit?",
@@ -105,7 +95,7 @@ void place(const SurfacePair::Settings& settings, PlacedSurface& source, PlacedS
   for (const PlacedSurface* surface : {&source, &target})
     if (surface->box().min().z() <= 0)
       throw DataError(fmt::format("the camera is inside {:g} mm before the middle; {}", distance,
-                                  described_size(*surface, settings.unit)));
+                                  place_and_size(*surface, settings.unit)));
 }
 
 void check_correspondence(const PlacedSurface& source, const PlacedSurface& target) {
@@ -142,7 +132,7 @@ Image<Fragment> render(const PlacedSurface& surface, const SurfacePair::Settings
   Image<Fragment> seen = render_mesh(surface.points, surface.mesh.triangles, settings.camera);
   const auto shows = [](const Fragment& fragment) { return fragment.triangle >= 0; };
   if (std::none_of(seen.pixels().begin(), seen.pixels().end(), shows))
-    throw DataError("no pixel of the camera sees " + described_size(surface, settings.unit));
+    throw DataError("no pixel of the camera sees " + place_and_size(surface, settings.unit));
   return seen;
 }
 

@@ -81,6 +81,8 @@ class SheetStream : public DataStream {
     return frame;
   }
 
+  bool reads_on_host() const override { return true; }
+
   std::optional<PairTruth> truth(int number) const override {
     if (number < 2 || number > frames_) return std::nullopt;
     return PairTruth{true_motion(rig_.depth, sheet_.partly(share_of(number, frames_)))};

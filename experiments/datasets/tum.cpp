@@ -21,28 +21,19 @@ Camera benchmark_camera(const std::string& name) {
 class Tum : public FrameSource {
  public:
   explicit Tum(const Parameters& section)
-      : folder_(section.text("folder")),
-        selection_(selection_of(section)),
-        units_(depth_units_of(section)),
-        camera_(camera_choice(section).value_or(CameraChoice{"", benchmark_camera(section.text("camera")),
-                                                             "camera: " + section.text("camera")})) {}
+      : settings_(sequence_settings(section, camera_choice(section).value_or(
+                                                 CameraChoice{"", benchmark_camera(section.text("camera")),
+                                                              "camera: " + section.text("camera")}))) {}
 
   std::unique_ptr<DataStream> open(Device& /*device*/, std::uint64_t /*seed*/) const override {
-    TumFrames read = read_tum_lists(folder_);
-    Sequence sequence;
-    sequence.name = name_of_folder(folder_);
-    sequence.frames = selected(read.frames, selection_, folder_);
-    sequence.camera = camera_;
-    sequence.units = units_;
+    TumFrames read = read_tum_lists(settings_.folder);
+    Sequence sequence = sequence_of(settings_, read.frames, settings_.folder);
     sequence.warnings = std::move(read.warnings);
     return open_sequence(std::move(sequence));
   }
 
  private:
-  std::string folder_;
-  Selection selection_;
-  DepthUnits units_;
-  CameraChoice camera_;
+  SequenceSettings settings_;
 };
 
 }  // namespace
@@ -53,7 +44,9 @@ void register_tum(Registry& registry) {
       "tum", "A sequence in the layout of the TUM RGB-D benchmark",
       with_sequence(
           {
-              path("folder").doc("with associations.txt, or depth.txt and rgb.txt, and the images they name"),
+              path("folder").doc("with associations.txt, or depth.txt and rgb.txt, the images they name, and "
+                                 "groundtruth.txt where "
+                                 "there is one"),
               choice("camera", {"freiburg1", "freiburg2", "freiburg3", "ros_default"}, "ros_default")
                   .doc("a camera of the benchmark, where neither 'intrinsics' nor numbers are given"),
           },

@@ -8,6 +8,7 @@
 #include <optional>
 #include <tuple>
 
+#include "experiments/datasets/tum_poses.h"
 #include "framework/core/error.h"
 #include "framework/io/text_lines.h"
 
@@ -126,12 +127,25 @@ TumFrames from_both_lists(const std::string& folder) {
   return read;
 }
 
+void add_poses(const std::string& path, TumFrames& read) {
+  if (!fs::exists(path)) return;
+  const TumPoses poses(path);
+  const auto has_pose = [](const Sequence::Item& frame) { return frame.camera_pose.has_value(); };
+  for (Sequence::Item& frame : read.frames) frame.camera_pose = poses.at(frame.time);
+  if (std::none_of(read.frames.begin(), read.frames.end(), has_pose))
+    read.warnings.push_back(fmt::format(
+        "{}: no frame has a pose, because none was taken between two poses at most 100 ms apart; is all "
+        "of it in seconds?",
+        path));
+}
+
 }  // namespace
 
 TumFrames read_tum_lists(const std::string& folder) {
   const std::string associations = in_folder(folder, "associations.txt");
   TumFrames read = fs::exists(associations) ? TumFrames{read_associations(associations, folder), {}}
                                             : from_both_lists(folder);
+  add_poses(in_folder(folder, "groundtruth.txt"), read);
   const double start = read.frames.front().time;
   for (Sequence::Item& frame : read.frames) frame.time -= start;
   return read;

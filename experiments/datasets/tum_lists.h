@@ -17,7 +17,8 @@ struct TumFrames {
 /// path has "depth" in it is the depth). Otherwise from `depth.txt` and `rgb.txt`: each depth goes with the
 /// colour nearest in time, at most 20 ms apart, each used once, the nearest first; depth without is left out.
 /// Without `rgb.txt` there is no colour. A frame's time is that of its depth, in seconds from the first
-/// frame's on. Throws DataError naming file and line.
+/// frame's on; its camera's pose is that of `groundtruth.txt` (TumPoses), where there is one, at the time of
+/// the depth. Throws DataError naming file and line.
 TumFrames read_tum_lists(const std::string& folder);
 
 }  // namespace pliant

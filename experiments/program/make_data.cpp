@@ -52,13 +52,14 @@ void make_data_command(const ExperimentOptions& options, const std::string& layo
   ResultFolder result(
       folder, {"intrinsics.txt", "depth.txt", "rgb.txt", "groundtruth.txt", "associations.txt"}, data.files);
   ProgressLine line;
-  const int frames =
+  const WrittenSequence written =
       write_sequence(*stream, layout == "tum" ? SequenceLayout::tum : SequenceLayout::deepdeform,
                      result.unfinished(), line.sink());
   line.clear();
   result.commit();
   for (const auto& warning : stream->warnings()) print("warning: {}\n", warning);
-  print("{} frames of {} are in {}\n", frames, stream->name(), folder.string());
+  print("{} frames of {} are in {}\n", written.frames, stream->name(), folder.string());
+  if (written.lost) std::rethrow_exception(written.lost);
 }
 
 }  // namespace pliant

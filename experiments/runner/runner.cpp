@@ -216,9 +216,11 @@ ExperimentResult run_experiment(const Task& task, const ExperimentPlan& plan, co
 
 void check_ends(const ExperimentResult& result) {
   if (!result.failed.empty()) std::rethrow_exception(result.failed.front().error);
-  for (const auto& run : result.runs)
-    if (!run.failure.empty() && run.is_short_of_data) throw DataError(run.failure);
-  if (!run.failure.empty()) throw NumericalError(run.failure);
+  for (const auto& run : result.runs) {
+    if (run.failure.empty()) continue;
+    if (run.is_short_of_data) throw DataError(run.failure);
+    throw NumericalError(run.failure);
+  }
 }
 
 std::vector<Table> run_tables(const Task& task, const ExperimentPlan& plan, const ExperimentResult& result,

@@ -10,6 +10,7 @@
 #include "experiments/tasks/drawings.h"
 #include "experiments/tasks/iteration_recorder.h"
 #include "experiments/tasks/thinned_surface.h"
+#include "framework/geometry/bounding_box.h"
 
 namespace pliant {
 namespace {
@@ -33,7 +34,7 @@ std::set<int> chosen_iterations(const RegistrationResult& result) {
 Surface near(const Surface& target, const RegistrationResult& result) {
   Eigen::AlignedBox3f box;
   for (const auto* points : {&result.source.points, &result.aligned_points, &result.points})
-    for (const Eigen::Vector3f& point : *points) box.extend(point);
+    box.extend(box_around(*points));
   const Eigen::Vector3f air = Eigen::Vector3f::Constant(surroundings * box.sizes().maxCoeff());
   const Eigen::AlignedBox3f around(box.min() - air, box.max() + air);
   Surface part;

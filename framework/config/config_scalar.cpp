@@ -68,6 +68,14 @@ std::optional<double> number_in_range(const Parameter& row, const std::string& t
   return number && in_range(row, *number) ? number : std::nullopt;
 }
 
+Parameters::Value typed_value(const std::string& name, const ordered_json& scalar) {
+  if (scalar.is_boolean()) return {name, scalar.get<bool>()};
+  if (scalar.is_number_integer()) return {name, scalar.get<std::int64_t>()};
+  if (scalar.is_number_float()) return {name, scalar.get<double>()};
+  if (scalar.is_array()) return {name, scalar.get<std::vector<double>>()};
+  return {name, scalar.get<std::string>()};
+}
+
 ordered_json typed_default(const Parameter& row) {
   if (!row.default_text()) return nullptr;
   if (row.type() == ParameterType::reals)

@@ -15,6 +15,9 @@ nlohmann::ordered_json typed_scalar(const Parameter& row, const std::string& tex
 /// The finite number that the whole of `text` spells out, if the row's range allows it.
 std::optional<double> number_in_range(const Parameter& row, const std::string& text);
 
+/// A scalar or a list of numbers as the value of the parameter `name`.
+Parameters::Value typed_value(const std::string& name, const nlohmann::ordered_json& scalar);
+
 /// The default of a scalar row with its type; null where it has none.
 nlohmann::ordered_json typed_default(const Parameter& row);
 

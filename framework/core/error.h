@@ -29,6 +29,12 @@ class DataError : public Error {
   explicit DataError(const std::string& message) : Error(message, 3) {}
 };
 
+/// A live source that ended while it was read, as a camera that was unplugged. What was read before is good.
+class SourceLost : public DataError {
+ public:
+  using DataError::DataError;
+};
+
 /// No usable OpenCL device, a failed kernel build (with its log) or a failed device call.
 class DeviceError : public Error {
  public:

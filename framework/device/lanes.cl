@@ -8,6 +8,13 @@ typedef int16 Truth;  // of a comparison, lane by lane
 #define STORE(value, address) vstore16(value, 0, address)
 #define LANE_OFFSETS ((Lanes)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #define ANY(condition) any_lane(condition)
+// Drivers look at one lane after the other in their own any().
+static inline int any_lane(int16 condition) {
+  const int8 a = condition.lo | condition.hi;
+  const int4 b = a.lo | a.hi;
+  const int2 c = b.lo | b.hi;
+  return (c.x | c.y) != 0;
+}
 #elif WIDTH == 1
 typedef float Lanes;
 typedef int Truth;
@@ -20,16 +27,6 @@ typedef int Truth;
 #endif
 
 #define WHERE(condition, value) select((Lanes)0, value, condition)  // 0 elsewhere
-
-#if WIDTH == 16
-// Drivers for CPUs make a branch for each lane of any().
-static inline int any_lane(Truth condition) {
-  const int8 eight = condition.lo | condition.hi;
-  const int4 four = eight.lo | eight.hi;
-  const int2 two = four.lo | four.hi;
-  return two.x | two.y;
-}
-#endif
 
 typedef struct {
   Lanes x, y, z;
@@ -51,6 +48,27 @@ Vector scaled(Vector v, Lanes factor) {
 Vector only(Truth condition, Vector v) {
   const Vector chosen = {WHERE(condition, v.x), WHERE(condition, v.y), WHERE(condition, v.z)};
   return chosen;
+}
+
+// 2^-n for 2^n <= x < 2^(n + 1).
+Lanes reciprocal_exponent(Lanes x) {
+#if WIDTH == 16
+  return as_float16(0x7f000000 - (as_int16(x) & 0x7f800000));
+#else
+  return as_float(0x7f000000 - (as_int(x) & 0x7f800000));
+#endif
+}
+
+// 1 / sqrt(x) but for rounding, by Newton's steps from a straight line over the bits: vectors of roots and
+// quotients are several times slower.
+Lanes inverse_root(Lanes x) {
+#if WIDTH == 16
+  Lanes root = as_float16(0x5f3759df - (as_int16(x) >> 1));
+  for (int step = 0; step < 3; ++step) root *= 1.5f - 0.5f * x * root * root;
+  return root;
+#else
+  return rsqrt(x);
+#endif
 }
 
 // WIDTH vectors that lie as x y z in turn; of fewer than WIDTH, `count`, the last one fills the rest.

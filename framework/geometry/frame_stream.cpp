@@ -8,6 +8,7 @@
 
 #include "framework/core/error.h"
 #include "framework/geometry/color_at_depth.h"
+#include "framework/geometry/has_point.h"
 
 namespace pliant {
 
@@ -60,8 +61,14 @@ bool carry_color(Frame& frame, const Rig& rig) {
 
 FramePair read_pair(FrameStream& stream) {
   CheckedStream frames(stream);
-  FramePair pair{stream.name(), stream.rig().depth, frames.require("the source"),
-                 frames.require("the target")};
+  const auto seeing = [&](const char* which) {
+    Frame frame = frames.require(which);
+    if (!sees_something(frame))
+      throw DataError(fmt::format("{}: {} sees nothing: no valid depth{}", stream.name(), which,
+                                  frame.mask.empty() ? "" : " inside its mask"));
+    return frame;
+  };
+  FramePair pair{stream.name(), stream.rig().depth, seeing("the source"), seeing("the target")};
   const bool source_is_seen = carry_color(pair.source, stream.rig());
   const bool target_is_seen = carry_color(pair.target, stream.rig());
   pair.warnings = stream.warnings();

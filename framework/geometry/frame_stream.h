@@ -24,6 +24,10 @@ class FrameStream {
   virtual std::optional<Frame> next() = 0;
   /// What is odd about the stream as far as it was read, though it can be used: a line each.
   virtual std::vector<std::string> warnings() const { return {}; }
+  /// Whether `next` leaves the Device alone, so that it may run on another thread (see PrefetchedStream)
+  /// while the device is used; all else that the stream can be asked does not depend on what `next` is doing
+  /// then, but for `warnings`.
+  virtual bool reads_on_host() const { return false; }
 };
 
 /// Reads a stream and refuses what a stream may not do, by DataErrors that name the stream and the frame: a
@@ -49,7 +53,7 @@ class CheckedStream {
 };
 
 /// The first two frames of a stream, their colour carried to the depth (color_at_depth). Throws DataError as
-/// CheckedStream does and when the stream ends early.
+/// CheckedStream does, when the stream ends early, and when one of them sees nothing.
 FramePair read_pair(FrameStream& stream);
 
 }  // namespace pliant

@@ -15,4 +15,11 @@ inline bool has_point(const Frame& frame, std::size_t pixel) {
   return is_depth(frame.depth.data()[pixel]) && (frame.mask.empty() || frame.mask.data()[pixel] != 0);
 }
 
+/// Whether it does so anywhere.
+inline bool sees_something(const Frame& frame) {
+  for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel)
+    if (has_point(frame, pixel)) return true;
+  return false;
+}
+
 }  // namespace pliant

@@ -6,8 +6,8 @@
 
 #define SUBPIXELS 4096
 #define SUBPIXEL_BITS 12
-#define WIDEST 131072.0f     // pixels from the image's corner: differences of products then fit into a long
-#define OUTSIDE INT_MIN      // of what has no place in the image
+#define WIDEST 131072.0f  // pixels from the image's corner: differences of products then fit into a long
+#define OUTSIDE INT_MIN   // of what has no place in the image
 
 typedef struct {
   float3 a, b, c;
@@ -54,7 +54,8 @@ kernel void place(global const float* points, int count, float4 camera, float ne
 }
 
 bool is_placed(int3 corners, global const int* places) {
-  return places[2 * corners.x] != OUTSIDE && places[2 * corners.y] != OUTSIDE && places[2 * corners.z] != OUTSIDE;
+  return places[2 * corners.x] != OUTSIDE && places[2 * corners.y] != OUTSIDE &&
+         places[2 * corners.z] != OUTSIDE;
 }
 
 int first_from(int a, int b, int c) { return (min(min(a, b), c) + SUBPIXELS - 1) >> SUBPIXEL_BITS; }
@@ -62,8 +63,8 @@ int first_from(int a, int b, int c) { return (min(min(a, b), c) + SUBPIXELS - 1)
 int last_until(int a, int b, int c) { return max(max(a, b), c) >> SUBPIXEL_BITS; }
 
 // The first and the last row of the image that each triangle may be seen in.
-kernel void reach(global const int* triangles, int count, global const float* points, global const int* places,
-                  float near, int2 size, global int* rows) {
+kernel void reach(global const int* triangles, int count, global const float* points,
+                  global const int* places, float near, int2 size, global int* rows) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const int3 corners = vload3(i, triangles);
@@ -97,7 +98,8 @@ void show(int triangle, float depth, int u, int v, Band band) {
 long area(long2 p, long2 q, long2 r) { return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x); }
 
 void draw_placed(int index, Triangle t, int2 rows, long2 a, long2 b, long2 c, float4 camera, Band band) {
-  const int first_u = max(first_from(a.x, b.x, c.x), 0), last_u = min(last_until(a.x, b.x, c.x), band.width - 1);
+  const int first_u = max(first_from(a.x, b.x, c.x), 0),
+            last_u = min(last_until(a.x, b.x, c.x), band.width - 1);
   const int first_v = max(rows.x, band.first), last_v = min(rows.y, band.last);
   const long whole = area(a, b, c);
   if (first_u > last_u || whole == 0) return;  // seen from its edge: its neighbours are seen instead
@@ -149,8 +151,8 @@ void draw_across(int index, Triangle t, float4 camera, float near, Band band) {
   }
 }
 
-// A work-item draws all triangles, one after the other, in `height` rows of its own: no other one writes there.
-// The depth is 0 where nothing is seen.
+// A work-item draws all triangles, one after the other, in `height` rows of its own: no other one writes
+// there. The depth is 0 where nothing is seen.
 kernel void draw(global const int* triangles, int count, global const float* points, global const int* places,
                  global const int* rows, float4 camera, float near, int2 size, int height,
                  global float* depth, global int* seen) {
@@ -168,7 +170,8 @@ kernel void draw(global const int* triangles, int count, global const float* poi
     const Triangle t = triangle_of(corners, points);
     if (is_placed(corners, places))
       draw_placed(i, t, reached, convert_long2(vload2(corners.x, places)),
-                  convert_long2(vload2(corners.y, places)), convert_long2(vload2(corners.z, places)), camera, band);
+                  convert_long2(vload2(corners.y, places)), convert_long2(vload2(corners.z, places)), camera,
+                  band);
     else
       draw_across(i, t, camera, near, band);
   }

@@ -53,7 +53,8 @@ std::size_t runs_of(const Device& device, const Camera& camera) {
   return static_cast<std::size_t>(runs) * static_cast<std::size_t>(camera.height);
 }
 
-/// Of the rows that a work-item draws: several bands for each of what works at a time, because some take longer.
+/// Of the rows that a work-item draws: several bands for each of what works at a time, because some take
+/// longer.
 int rows_of_a_band(const Device& device, const Camera& camera) {
   const int bands = 8 * device.info().compute_units;
   return (camera.height + bands - 1) / bands;

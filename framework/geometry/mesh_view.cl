@@ -1,5 +1,5 @@
-// What the pixels of a view show, WIDTH of a row a work-item; compiled behind lanes.cl. `camera`: fx, fy, cx, cy.
-// Points: mm in the camera's frame, x y z in turn. `seen`: the triangle of each pixel, -1 for none.
+// What the pixels of a view show, WIDTH of a row a work-item; compiled behind lanes.cl. `camera`: fx, fy, cx,
+// cy. Points: mm in the camera's frame, x y z in turn. `seen`: the triangle of each pixel, -1 for none.
 
 #if WIDTH == 16
 #define WHOLE(values) convert_int16(values)
@@ -43,7 +43,8 @@ Lanes load_row(Run run, global const float* image) {
 
 Truth is_seen(Run run, global const int* seen) {
   int shown[WIDTH];
-  for (int lane = 0; lane < WIDTH; ++lane) shown[lane] = lane < run.count && seen[run.first + lane] >= 0 ? -1 : 0;
+  for (int lane = 0; lane < WIDTH; ++lane)
+    shown[lane] = lane < run.count && seen[run.first + lane] >= 0 ? -1 : 0;
   return FROM_WHOLE(shown);
 }
 
@@ -51,8 +52,10 @@ typedef struct {
   Vector a, b, c;
 } Triangles;
 
-// What the corners of each pixel's triangle have, three values each; of the first triangle where none is seen.
-Triangles triangles_of(Run run, global const int* seen, global const int* triangles, global const float* values) {
+// What the corners of each pixel's triangle have, three values each; of the first triangle where none is
+// seen.
+Triangles triangles_of(Run run, global const int* seen, global const int* triangles,
+                       global const float* values) {
   float x[3][WIDTH], y[3][WIDTH], z[3][WIDTH];
   for (int lane = 0; lane < WIDTH; ++lane) {
     const int triangle = max(lane < run.count ? seen[run.first + lane] : 0, 0);
@@ -105,8 +108,7 @@ void store_pairs(Lanes first, Lanes second, Run run, global float* pairs) {
   float a[WIDTH], b[WIDTH];
   STORE(first, a);
   STORE(second, b);
-  for (int lane = 0; lane < run.count; ++lane)
-    vstore2((float2)(a[lane], b[lane]), run.first + lane, pairs);
+  for (int lane = 0; lane < run.count; ++lane) vstore2((float2)(a[lane], b[lane]), run.first + lane, pairs);
 }
 
 // Of the points that rays meet.
@@ -151,7 +153,8 @@ kernel void interpolate(global const int* triangles, global const float* values,
   if (run.count <= 0) return;
   const Truth here = is_seen(run, seen);
   Vector value = {0, 0, 0};
-  if (ANY(here)) value = only(here, blend(triangles_of(run, seen, triangles, values), load_shares(run, shares)));
+  if (ANY(here))
+    value = only(here, blend(triangles_of(run, seen, triangles, values), load_shares(run, shares)));
   store_vectors(value, run.count, interpolated + 3 * run.first);
 }
 
@@ -233,8 +236,8 @@ kernel void move(global const int* triangles, int2 size, float4 camera, global c
     const Lanes at_v = moved.y / moved.z * target_camera.y + target_camera.w;
     shift_u = or_nan(in_front, at_u - columns_of(run));
     shift_v = or_nan(in_front, at_v - run.v);
-    shown = is_shown(in_front, moved, rounded_outer(minus(t.b, t.a), minus(t.c, t.a)), at_u, at_v, target_camera,
-                     target_size, depth);
+    shown = is_shown(in_front, moved, rounded_outer(minus(t.b, t.a), minus(t.c, t.a)), at_u, at_v,
+                     target_camera, target_size, depth);
   }
   store_vectors(motion, run.count, scene_flow + 3 * run.first);
   store_pairs(shift_u, shift_v, run, optical_flow);

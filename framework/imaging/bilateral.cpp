@@ -1,9 +1,10 @@
 #include "framework/imaging/bilateral.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "framework/imaging/bilateral.cl.embed.h"
@@ -61,39 +62,42 @@ double median_depth(const DepthMap& map) {
   return median(std::move(depths));
 }
 
-/// Of a Gaussian as a power of two, which the kernel works with: -log2 of the weight.
-float exponent(double distance, double sigma) {
-  return static_cast<float>(distance * distance / (2 * sigma * sigma) * std::numbers::log2e);
-}
+double gauss(double distance, double sigma) { return std::exp(-distance * distance / (2 * sigma * sigma)); }
+
+// The kernel's Gaussian of depth: a cubic v^3 + linear v + constant, v = top - d^2, that is 0 at d = 1.
+constexpr double reach = 7.38705;  // sigma
+constexpr double top = 0.648966;
+constexpr double linear = 1.025937;
+constexpr double constant = (1 - top) * ((1 - top) * (1 - top) + linear);
 
 }  // namespace
 
 BilateralFilter::BilateralFilter(double sigma_space, double sigma_depth, int radius)
     : sigma_space_(sigma_space), sigma_depth_(sigma_depth), radius_(radius) {
-  std::vector<float> steps;
+  std::vector<float> space;
   for (int dv = -radius_; dv <= radius_; ++dv)
-    for (int du = -radius_; du <= radius_; ++du) steps.push_back(exponent(std::hypot(du, dv), sigma_space_));
-  steps_ = Array<float>(std::move(steps));
+    for (int du = -radius_; du <= radius_; ++du)
+      space.push_back(static_cast<float>(gauss(std::hypot(du, dv), sigma_space_)));
+  space_ = Array<float>(std::move(space));
 }
 
 std::optional<DepthMap> BilateralFilter::filter(Device& device, const DepthMap& map, const Camera&) const {
   static const std::string source = with_depth_map(embedded::framework_imaging_bilateral_cl);
   DepthMap filtered(map.window);
-  auto kernel = device.kernel(source, "bilateral", depth_map_options());
+  static const std::string options = fmt::format("{} -DTOP={:.8e}f -DLINEAR={:.8e}f -DCONSTANT={:.8e}f",
+                                                 depth_map_options(), top, linear, constant);
+  auto kernel = device.kernel(source, "bilateral", options);
   const auto width = static_cast<std::size_t>(device.width());
   device.run("filter", kernel, map.depth.size() / width, 64, map.depth.device(device),
              static_cast<cl_int>(map.stride), cl_int2{{map.window.width, map.window.height}},
-             static_cast<cl_int>(radius_), steps_.device(device), exponent(1, sigma_depth_),
-             filtered.depth.write_device(device));
+             static_cast<cl_int>(radius_), space_.device(device),
+             static_cast<float>(1 / (reach * sigma_depth_)), filtered.depth.write_device(device));
   return filtered;
 }
 
 DepthImage BilateralFilter::filter_reference(const DepthImage& depth) const {
   DepthImage filtered(depth.width(), depth.height());
   const auto has_depth = [&](int u, int v) { return depth.contains(u, v) && is_depth(depth(u, v)); };
-  const auto gauss = [](double distance, double sigma) {
-    return std::exp(-distance * distance / (2 * sigma * sigma));
-  };
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) {
       if (!has_depth(u, v)) continue;

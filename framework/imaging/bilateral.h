@@ -24,7 +24,7 @@ class BilateralFilter : public DepthFilter {
   double sigma_space_;
   double sigma_depth_;
   int radius_;
-  Array<float> steps_;  ///< the spatial weights as the kernel wants them, sent to the device once
+  Array<float> space_;  ///< the spatial weights, which go to the device once
 };
 
 /// How uncertain the depths of a map are: the standard deviation (mm) of white noise whose second differences

@@ -9,7 +9,7 @@ typedef int16 Ints;
 #define INTS(value) as_int16(value)
 #define FLOATS(value) convert_float16(value)
 #define LOAD_INTS(address) vload16(0, address)
-#define STORE_INTS(value, address) vstore16(value, 0, address)
+#define STORE_INTS(value, address) vstore16(as_float16(value), 0, (local float*)(address))
 #else
 typedef int Ints;
 #define INTS(value) as_int(value)
@@ -29,36 +29,31 @@ typedef int Ints;
 #define PLANE (SUM_ROWS * SUM_STRIDE)
 #define COUNT_BITS 9  // of the number of pixels that windows must not hold
 
-typedef struct {
-  Ints q, qu, qv;  // inverse depth, the same times column and row within the tile
-  Ints cc;         // square of coarse inverse depth
-  Ints ce;         // coarse inverse depth, and below it how many pixels no window may hold
-} Sums;
+// The planes of the sums: inverse depth q; q times the column and q times the row within the tile; the square
+// of coarse inverse depth c; c and, in bits below it, how many pixels no window may hold.
 
-// Sums along the lanes, those before included.
-Ints running(Ints x, int before) {
+// Sums along the lanes, those of the vector before included.
+Ints running(Ints x, Ints before) {
 #if WIDTH == 16
   const Ints zero = 0;
   x += (Ints)(0, x.s0123, x.s456789ab, x.scd, x.se);
   x += (Ints)(0, 0, x.s0123, x.s456789ab, x.scd);
   x += (Ints)(zero.s0123, x.s01234567, x.s89ab);
   x += (Ints)(zero.lo, x.lo);
-#endif
+  return x + before.sf;
+#else
   return x + before;
+#endif
 }
 
-int last(Ints x) {
-#if WIDTH == 16
-  return x.sf;
-#else
-  return x;
-#endif
+// To the nearest whole number, for 0 <= x < 2^22.
+Ints rounded(Lanes x) {
+  const Lanes shift = 8388608.0f;  // 2^23: adding it rounds to whole numbers
+  return INTS(x + shift) - INTS(shift);
 }
 
 Ints steps_of(Lanes depth) {
-  const Lanes round = 8388608.0f;  // 2^23: adding it rounds to whole numbers
-  const Lanes steps = WHERE(depth >= (Lanes)NEAREST && HAS_DEPTH(depth), STEPS / depth);
-  return INTS(steps + round) - INTS(round);
+  return rounded(WHERE(depth >= (Lanes)NEAREST && HAS_DEPTH(depth), STEPS / depth));
 }
 
 // Without `bits`, rounded.
@@ -85,36 +80,27 @@ Ints is_edge(global const float* pixel, int stride, Lanes z, Ints q, float depth
   return select((Ints)0, (Ints)1, ends);
 }
 
-void sum_up(global const float* depth, int stride, int columns, int rows, float depth_change, int coarse_bits,
-            local int* sums) {
-  for (int i = 0; i < SUM_STRIDE; i += WIDTH)
-    for (int plane = 0; plane < 5; ++plane) STORE_INTS((Ints)0, sums + plane * PLANE + i);
-  for (int y = 0; y < rows; ++y) {
-    int q_before = 0, qu_before = 0, qv_before = 0, cc_before = 0, ce_before = 0;
-    for (int x = 0; x < columns; x += WIDTH) {
-      global const float* pixel = depth + y * stride + x;
-      const Lanes z = LOAD(pixel);
-      const Ints q = steps_of(z);
-      const Ints coarse = coarse_steps(q, coarse_bits);
-      const Ints edge = is_edge(pixel, stride, z, q, depth_change);
-      const Ints in_row_q = running(q, q_before);
-      const Ints in_row_qu = running(q * (x + INT_OFFSETS), qu_before);
-      const Ints in_row_qv = running(q * y, qv_before);
-      const Ints in_row_cc = running(coarse * coarse, cc_before);
-      const Ints in_row_ce = running((coarse << COUNT_BITS) + edge, ce_before);
-      q_before = last(in_row_q);
-      qu_before = last(in_row_qu);
-      qv_before = last(in_row_qv);
-      cc_before = last(in_row_cc);
-      ce_before = last(in_row_ce);
-      local int* above = sums + y * SUM_STRIDE + x;
-      local int* here = above + SUM_STRIDE;
-      STORE_INTS(LOAD_INTS(above) + in_row_q, here);
-      STORE_INTS(LOAD_INTS(above + PLANE) + in_row_qu, here + PLANE);
-      STORE_INTS(LOAD_INTS(above + 2 * PLANE) + in_row_qv, here + 2 * PLANE);
-      STORE_INTS(LOAD_INTS(above + 3 * PLANE) + in_row_cc, here + 3 * PLANE);
-      STORE_INTS(LOAD_INTS(above + 4 * PLANE) + in_row_ce, here + 4 * PLANE);
-    }
+// Adds a row of the image to the sums: the row of sums after `above`.
+void sum_row(global const float* depth, int stride, int columns, int y, float depth_change, int coarse_bits,
+             local int* above) {
+  Ints q_before = 0, qu_before = 0, qv_before = 0, cc_before = 0, ce_before = 0;
+  for (int x = 0; x < columns; x += WIDTH) {
+    global const float* pixel = depth + x;
+    const Lanes z = LOAD(pixel);
+    const Ints q = steps_of(z);
+    const Ints coarse = coarse_steps(q, coarse_bits);
+    const Ints edge = is_edge(pixel, stride, z, q, depth_change);
+    q_before = running(q, q_before);
+    qu_before = running(q * (x + INT_OFFSETS), qu_before);
+    qv_before = running(q * y, qv_before);
+    cc_before = running(coarse * coarse, cc_before);
+    ce_before = running((coarse << COUNT_BITS) + edge, ce_before);
+    local int* sums = above + x;
+    STORE_INTS(LOAD_INTS(sums) + q_before, sums + SUM_STRIDE);
+    STORE_INTS(LOAD_INTS(sums + PLANE) + qu_before, sums + PLANE + SUM_STRIDE);
+    STORE_INTS(LOAD_INTS(sums + 2 * PLANE) + qv_before, sums + 2 * PLANE + SUM_STRIDE);
+    STORE_INTS(LOAD_INTS(sums + 3 * PLANE) + cc_before, sums + 3 * PLANE + SUM_STRIDE);
+    STORE_INTS(LOAD_INTS(sums + 4 * PLANE) + ce_before, sums + 4 * PLANE + SUM_STRIDE);
   }
 }
 
@@ -132,33 +118,43 @@ typedef struct {
   Lanes spread;      // mean of squared columns; 0 where there is no window
 } Course;
 
-// The course over the largest window around a vector of pixels that holds no edge.
-Course course_around(local const int* sums, int x, int y, int radius, Ints coarse, int coarse_bits) {
+// The course over the window of radius r around the pixels from (x, y) of the tile on. ce: the sum over it.
+Course course_over(local const int* corner, Ints ce, int x, int y, int r, int coarse_bits) {
+  const int side = 2 * r + 1, pixels = side * side;
+  const float spread = r * (r + 1) / 3.0f, share = 1.0f / pixels, per_square = share / spread;
+  const float coarse_unit = 1 << coarse_bits;
+  const Ints q = over_window(corner, side);
+  const Lanes mean = FLOATS(q) * share;
+  const Lanes scale = 1.0f / fmax(mean, (Lanes)1);
+  const Ints coarse = rounded(mean * (1.0f / coarse_unit));  // near all of the window's: so little is squared
+  const Ints sum = (ce - ((pixels * coarse) << COUNT_BITS)) >> COUNT_BITS;
+  const Ints squares = over_window(corner + 3 * PLANE, side) - coarse * (2 * sum + pixels * coarse);
+  const Lanes first = FLOATS(sum);
+  const Lanes coarse_scale = scale * coarse_unit;
+  const float rounding = pixels / 12.0f;  // variance that whole steps add
+  const Lanes variance =
+      (FLOATS(squares) - first * first * share - rounding) * (coarse_scale * coarse_scale * per_square);
+  Course course;
+  course.by_u = FLOATS(over_window(corner + PLANE, side) - q * (x + INT_OFFSETS)) * (scale * per_square);
+  course.by_v = FLOATS(over_window(corner + 2 * PLANE, side) - q * y) * (scale * per_square);
+  course.left = fmax(variance - course.by_u * course.by_u - course.by_v * course.by_v, (Lanes)0);
+  course.spread = spread;
+  return course;
+}
+
+// The course over the largest window around each pixel that holds no edge.
+Course course_around(local const int* sums, int x, int y, int radius, int coarse_bits) {
   Course course = {0, 0, 0, 0};
   for (int r = radius; r > 0; --r) {
-    const int side = 2 * r + 1;
     local const int* corner = sums + (y - r) * SUM_STRIDE + x - r - 1;
-    const float pixels = side * side;
-    const Ints ce = over_window(corner + 4 * PLANE, side) - ((side * side * coarse) << COUNT_BITS);
+    const Ints ce = over_window(corner + 4 * PLANE, 2 * r + 1);
     const Truth taken = (ce & ((1 << COUNT_BITS) - 1)) == 0 && course.spread == (Lanes)0;
     if (!ANY(taken)) continue;
-    const float spread = r * (r + 1) / 3.0f;
-    const Ints q = over_window(corner, side);
-    const Lanes mean = FLOATS(q) / pixels;
-    const Lanes scale = 1.0f / fmax(mean, (Lanes)1);
-    const Lanes by_u =
-        FLOATS(over_window(corner + PLANE, side) - q * (x + INT_OFFSETS)) * scale / (pixels * spread);
-    const Lanes by_v = FLOATS(over_window(corner + 2 * PLANE, side) - q * y) * scale / (pixels * spread);
-    const Ints first = ce >> COUNT_BITS;
-    const Ints second = over_window(corner + 3 * PLANE, side) - coarse * (2 * first + side * side * coarse);
-    const float rounding = pixels / 12;  // variance that whole steps add
-    const Lanes coarse_scale = scale * (1 << coarse_bits);
-    const Lanes variance = (FLOATS(second) - FLOATS(first) * FLOATS(first) / pixels - rounding) *
-                           coarse_scale * coarse_scale / (pixels * spread);
-    course.by_u = select(course.by_u, by_u, taken);
-    course.by_v = select(course.by_v, by_v, taken);
-    course.left = select(course.left, fmax(variance - by_u * by_u - by_v * by_v, (Lanes)0), taken);
-    course.spread = select(course.spread, (Lanes)spread, taken);
+    const Course found = course_over(corner, ce, x, y, r, coarse_bits);
+    course.by_u = select(course.by_u, found.by_u, taken);
+    course.by_v = select(course.by_v, found.by_v, taken);
+    course.left = select(course.left, found.left, taken);
+    course.spread = select(course.spread, found.spread, taken);
     if (!ANY(course.spread == (Lanes)0)) break;
   }
   return course;
@@ -167,18 +163,25 @@ Course course_around(local const int* sums, int x, int y, int radius, Ints coars
 // The covariance of the points that lie on `course` around `ray`, up to scale.
 Symmetric covariance_of(Course course, Vector ray, float2 focal) {
   const Lanes squares = course.by_u * course.by_u + course.by_v * course.by_v + course.left;
-  const Lanes k = 1.0f / (1.0f + course.spread * squares);
+  const Lanes weight = 1.0f + course.spread * squares;  // mean of q^2 over the square of the mean
   const float ratio = focal.x / focal.y;
   const Lanes gx = course.by_u, gy = course.by_v * ratio;
-  const Lanes kf = k * focal.x, spread = k * course.spread;
-  const Lanes depth = k * squares * focal.x * focal.x;
-  const Symmetric covariance = {1.0f + (depth * ray.x - 2.0f * kf * gx) * ray.x - spread * gx * gx,
-                                depth * ray.x * ray.y - kf * (ray.x * gy + ray.y * gx) - spread * gx * gy,
-                                depth * ray.x - kf * gx,
-                                ratio * ratio + (depth * ray.y - 2.0f * kf * gy) * ray.y - spread * gy * gy,
-                                depth * ray.y - kf * gy,
-                                depth};
+  const Lanes depth = squares * (focal.x * focal.x), fx = gx * focal.x, fy = gy * focal.x;
+  const Symmetric covariance = {
+      weight + (depth * ray.x - 2.0f * fx) * ray.x - course.spread * gx * gx,
+      depth * ray.x * ray.y - ray.x * fy - ray.y * fx - course.spread * gx * gy,
+      depth * ray.x - fx,
+      weight * (ratio * ratio) + (depth * ray.y - 2.0f * fy) * ray.y - course.spread * gy * gy,
+      depth * ray.y - fy,
+      depth};
   return covariance;
+}
+
+// The unit normal of a course, towards the camera; (0, 0, 0) where there is none.
+Vector normal_of(Course course, Vector ray, float2 focal) {
+  const Vector least = smallest_eigenvector(covariance_of(course, ray, focal));
+  const Lanes length = inverse_root(inner(least, least));
+  return only(course.spread > (Lanes)0, scaled(least, select(length, -length, inner(least, ray) > (Lanes)0)));
 }
 
 kernel void integral_images(global const float* depth, int stride, int2 size, int2 corner, float4 camera,
@@ -189,25 +192,24 @@ kernel void integral_images(global const float* depth, int stride, int2 size, in
   const int top = get_global_id(0) / tiles * TILE_ROWS;
   const int left = (get_global_id(0) % tiles) * TILE_COLUMNS;
   if (top >= size.y) return;
-  const int rows = min(TILE_ROWS, size.y - top);
-  const int columns = min(TILE_COLUMNS, size.x - left);
+  const int rows = min(TILE_ROWS, size.y - top) + 2 * radius;
+  const int columns = min(SUM_STRIDE, stride - left);
   global const float* tile = depth + (top + HALO - radius) * stride + left;
-  const int tile_columns = min(SUM_STRIDE, stride - left), tile_rows = rows + 2 * radius;
-  const int coarse_bits = spare_bits(tile, stride, tile_columns, tile_rows, most_coarse);
-  sum_up(tile, stride, tile_columns, tile_rows, depth_change, coarse_bits, sums);
-  for (int v = top; v < top + rows; ++v) {
-    for (int u = left; u < left + columns; u += WIDTH) {
+  const int coarse_bits = spare_bits(tile, stride, columns, rows, most_coarse);
+  for (int i = 0; i < SUM_STRIDE; i += WIDTH)
+    for (int plane = 0; plane < 5; ++plane) STORE_INTS((Ints)0, sums + plane * PLANE + i);
+  for (int y = 0; y < rows; ++y) {
+    sum_row(tile + y * stride, stride, columns, y, depth_change, coarse_bits, sums + y * SUM_STRIDE);
+    const int v = top + y - 2 * radius;
+    if (v < top) continue;
+    for (int u = left; u < min(left + TILE_COLUMNS, size.x); u += WIDTH) {
       const Lanes z = LOAD(depth + (v + HALO) * stride + u + HALO);
       Vector point = {0, 0, 0}, normal = {0, 0, 0};
       if (ANY_DEPTH(z)) {
-        const Ints coarse = coarse_steps(steps_of(z), coarse_bits);
-        const Course course =
-            course_around(sums, u - left + HALO, v - top + radius, radius, coarse, coarse_bits);
         const Vector ray = ray_through(u, v, corner, camera);
-        const Vector least = smallest_eigenvector(covariance_of(course, ray, camera.xy));
-        const Lanes away = select((Lanes)1, (Lanes)-1, inner(least, ray) > (Lanes)0);
+        const Course course = course_around(sums, u - left + HALO, y - radius, radius, coarse_bits);
+        normal = normal_of(course, ray, camera.xy);
         point = only(HAS_DEPTH(z), scaled(ray, z));
-        normal = only(course.spread > (Lanes)0, scaled(least, away / sqrt(inner(least, least))));
       }
       const int out = 3 * (v * size.x + u);
       store_vectors(point, size.x - u, points + out);

@@ -21,7 +21,7 @@ float most_coarse(int radius, float depth_change) {
   return static_cast<float>(std::sqrt(std::pow(2.0, 31) / pixels) / (radius * depth_change));
 }
 
-int tile_columns(const Device& device) { return 8 * device.width(); }
+int tile_columns(const Device& device) { return 10 * device.width(); }
 
 std::size_t tiles(const PixelWindow& window, int columns) {
   const auto count = [](int pixels, int in_tile) {

@@ -66,9 +66,29 @@ Vector plane_normal(Symmetric covariance) {
   return only(minors > (Lanes)FLATTEST && length > (Lanes)0, scaled(normal, 1.0f / length));
 }
 
-// A vector along the eigenvector of the smallest eigenvalue.
+Symmetric squared(Symmetric a) {
+  const Symmetric square = {a.xx * a.xx + a.xy * a.xy + a.xz * a.xz, a.xx * a.xy + a.xy * a.yy + a.xz * a.yz,
+                            a.xx * a.xz + a.xy * a.yz + a.xz * a.zz, a.xy * a.xy + a.yy * a.yy + a.yz * a.yz,
+                            a.xy * a.xz + a.yy * a.yz + a.yz * a.zz, a.xz * a.xz + a.yz * a.yz + a.zz * a.zz};
+  return square;
+}
+
+// The column that has the largest entry on the diagonal.
+Vector largest_column(Symmetric a) {
+  const Lanes x = fabs(a.xx), y = fabs(a.yy), z = fabs(a.zz), larger = fmax(x, y);
+  const Vector column = {select(select(a.xx, a.xy, y > x), a.xz, z > larger),
+                         select(select(a.xy, a.yy, y > x), a.yz, z > larger),
+                         select(select(a.xz, a.yz, y > x), a.zz, z > larger)};
+  return column;
+}
+
+// A vector along the eigenvector of the smallest eigenvalue: that of the largest of the adjugate, whose 16th
+// power is that vector times itself but for (smallest / middle eigenvalue)^16.
 Vector smallest_eigenvector(Symmetric covariance) {
-  const Symmetric a = of_unit_trace(covariance);
-  const Symmetric adj = adjugate(a);
-  return eigenvector_near(a, smallest_root(adj.xx + adj.yy + adj.zz, determinant_of(a, adj)));
+  const Symmetric adj = adjugate(covariance);
+  // A power of two brings the trace between 1 and 2, so that no power overflows.
+  const Lanes scale = reciprocal_exponent(adj.xx + adj.yy + adj.zz);
+  const Symmetric power = {adj.xx * scale, adj.xy * scale, adj.xz * scale,
+                           adj.yy * scale, adj.yz * scale, adj.zz * scale};
+  return largest_column(squared(squared(squared(squared(power)))));
 }

@@ -95,6 +95,7 @@ Cell cell_of(Field field, Vector p) {
 typedef struct {
   Lanes value;
   Vector gradient;  // a voxel
+  Vector smooth;    // by central differences of the field, where all their voxels were observed
   Truth is_known;
 } Sample;
 
@@ -110,9 +111,9 @@ Sample interpolate(Pair p00, Pair p10, Pair p01, Pair p11, Cell cell) {
   const Lanes v0 = mixed(v00, v10, f.y), v1 = mixed(v01, v11, f.y);
   const Lanes along_x = mixed(mixed(p00.second - p00.first, p10.second - p10.first, f.y),
                               mixed(p01.second - p01.first, p11.second - p11.first, f.y), f.z);
+  const Vector gradient = {along_x, mixed(v10 - v00, v11 - v01, f.z), v1 - v0};
   const Sample sample = {
-      mixed(v0, v1, f.z),
-      {along_x, mixed(v10 - v00, v11 - v01, f.z), v1 - v0},
+      mixed(v0, v1, f.z), gradient, gradient,
       cell.in_grid && both_known(p00) && both_known(p10) && both_known(p01) && both_known(p11)};
   return sample;
 }
@@ -125,7 +126,7 @@ Sample sample_at(Field field, Vector p) {
                      cell);
 }
 
-// The same with the gradient of the field's central differences, where all their voxels were observed.
+// The same with the smooth gradient.
 Sample smooth_sample_at(Field field, Vector p) {
   const Cell cell = cell_of(field, p);
   const Truth c = cell.corner;
@@ -165,7 +166,7 @@ Sample smooth_sample_at(Field field, Vector p) {
   const Vector smooth = {0.5f * mixed(mixed(x[0], x[1], f.y), mixed(x[2], x[3], f.y), f.z),
                          0.5f * mixed(y1 - y_before, y_behind - y0, f.y),
                          0.5f * mixed(z1 - z_before, z_behind - z0, f.z)};
-  sample.gradient = chosen(sample.gradient, smooth, all_known);
+  sample.smooth = chosen(sample.gradient, smooth, all_known);
   return sample;
 }
 
@@ -227,10 +228,11 @@ void cast(Field field, float near, float far, float16 placing, float16 back, flo
   if (!ANY(crossing.is_found)) return;
   Lanes z = mixed(crossing.front, crossing.behind,
                   crossing.front_value / (crossing.front_value - crossing.behind_value));
-  z = improved(z, sample_at(field, along(from, direction, z)), direction, crossing, voxel);
+  for (int round = 0; round < 2; ++round)
+    z = improved(z, sample_at(field, along(from, direction, z)), direction, crossing, voxel);
   const Sample sample = smooth_sample_at(field, along(from, direction, z));
   z = improved(z, sample, direction, crossing, voxel);
-  const Vector g = sample.gradient;
+  const Vector g = sample.smooth;
   const Vector turned = {back.s0 * g.x + back.s1 * g.y + back.s2 * g.z,
                          back.s4 * g.x + back.s5 * g.y + back.s6 * g.z,
                          back.s8 * g.x + back.s9 * g.y + back.sa * g.z};
@@ -241,16 +243,16 @@ void cast(Field field, float near, float far, float16 placing, float16 back, flo
 
 // Stores what the pixels of a row from (u, v) on have, those of them that are in the window.
 void store_in_window(Vector vectors, int u, int v, int4 window, global float* map) {
-  const int offset = (v - window.y) * window.z, first = max(window.x - u, 0);
-  const int count = min(window.x + window.z - u, WIDTH);
-  global float* to = map + 3 * (offset + (u - window.x));
+  const int first = max(window.x - u, 0), count = min(window.x + window.z - u, WIDTH);
+  const int offset = (v - window.y) * window.z + u - window.x;
   if (first == 0) {
-    store_vectors(vectors, count, to);
+    store_vectors(vectors, count, map + 3 * offset);
     return;
   }
   float x[WIDTH], y[WIDTH], z[WIDTH];
   STORE_VECTOR(vectors, x, y, z);
-  for (int lane = first; lane < count; ++lane) vstore3((float3)(x[lane], y[lane], z[lane]), lane, to);
+  for (int lane = first; lane < count; ++lane)
+    vstore3((float3)(x[lane], y[lane], z[lane]), offset + lane, map);
 }
 
 // A work-group casts the rays of a tile. `window`: the part of the area that is asked for.

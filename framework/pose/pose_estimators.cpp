@@ -43,6 +43,30 @@ ParameterTable icp_table() {
           .unit("degree")
           .range(0, 180)
           .doc("max_angle of the coarsest level; those between by equal steps"),
+      real("tolerance", options.tolerance)
+          .unit("mm")
+          .above(0)
+          .doc("a shorter step ends the last level, and one longer by as much as it reaches further the "
+               "others"),
+      real("damping", options.damping)
+          .range(0, 1)
+          .doc(
+              "pull to the start, as a share of what an average direction is told: what the surface does not "
+              "tell stays there"),
+      real("min_overlap", options.min_overlap)
+          .range(0, 1)
+          .doc("failed where a smaller share of the model's points meets a point of the frame"),
+      real("min_inliers", options.min_inliers)
+          .range(0, 1)
+          .doc("failed where a smaller share of these has an accepted match"),
+      real("max_shift", options.max_shift)
+          .unit("mm")
+          .above(0)
+          .doc("failed where both the camera and the middle of the model moved further than that"),
+      real("max_turn", options.max_turn / degree)
+          .unit("degree")
+          .range(0, 180)
+          .doc("failed where it turned further than that"),
   };
 }
 
@@ -54,6 +78,12 @@ ProjectiveIcpOptions read_icp(const Parameters& section) {
   options.iterations = static_cast<int>(section.integer("iterations"));
   options.coarse_distance = section.real("coarse_distance");
   options.coarse_angle = section.real("coarse_angle") * degree;
+  options.tolerance = section.real("tolerance");
+  options.damping = section.real("damping");
+  options.min_overlap = section.real("min_overlap");
+  options.min_inliers = section.real("min_inliers");
+  options.max_shift = section.real("max_shift");
+  options.max_turn = section.real("max_turn") * degree;
   return options;
 }
 

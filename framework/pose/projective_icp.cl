@@ -1,6 +1,7 @@
-// Projective ICP of a model's map against a frame's [thesis 3.3]: every point, or every so-many-th of a level, is
-// matched with the point at the pixel that it projects to; point to plane [Eq. 3.2] with the model's normals, which
-// are fused from many frames. Compiled behind lanes.cl, surface_map.cl, rigid_equation.h and rigid_step.cl.
+// Projective ICP of a model's map against a frame's [thesis 3.3]: every point, or every so-many-th of a
+// level, is matched with the point at the pixel that it projects to; point to plane [Eq. 3.2] with the
+// model's normals, which are fused from many frames. Compiled behind lanes.cl, surface_map.cl,
+// rigid_equation.h and rigid_step.cl.
 
 // The state of the motion: it moves a point p to R (p - FROM) + TO.
 #define TO 9
@@ -21,7 +22,8 @@ static inline int sampled(int size, int step) { return (size + step / 2) / step;
 // The offsets in a map `width` pixels wide of WIDTH samples of a row, NONE beyond the row's end.
 static inline Pixels sampled_pixels(int row, int first, int columns, int width, int step) {
   const Lanes column = first + LANE_OFFSETS;
-  const Pixels pixels = (Pixels)(row * step + (step - 1) / 2) * width + TO_INT(column) * step + (step - 1) / 2;
+  const Pixels pixels =
+      (Pixels)(row * step + (step - 1) / 2) * width + TO_INT(column) * step + (step - 1) / 2;
   return select(NONE, pixels, column < (Lanes)columns);
 }
 
@@ -37,7 +39,8 @@ static inline Vector sampled_vectors(Pixels pixels, int first, int columns, int 
   return gather(pixels, map);
 }
 
-// ------------------------------------------------------------------------------------------------------ start
+// ------------------------------------------------------------------------------------------------------
+// start
 
 // Of a row of samples: the sum of x, y, z, 1 and x^2 + y^2 + z^2.
 kernel void measure(int2 size, int step, global const float* points, global float* partials) {
@@ -78,7 +81,8 @@ kernel void begin(int rows, global const float* partials, float16 start, global 
           state + TO);
 }
 
-// -------------------------------------------------------------------------------------------------- equations
+// --------------------------------------------------------------------------------------------------
+// equations
 
 static inline Vector turned(const float* R, Vector v) {
   const Vector result = {R[0] * v.x + R[1] * v.y + R[2] * v.z, R[3] * v.x + R[4] * v.y + R[5] * v.z,
@@ -91,8 +95,8 @@ static inline Vector minus_point(Vector v, const float* point) {
   return difference;
 }
 
-// The normal equations at the state, a run of samples a work-item. With the normal n turning along, the distance
-// n . (p - q) changes with a turn by ((q - pivot) x n): the lever ends at the match.
+// The normal equations at the state, a run of samples a work-item. With the normal n turning along, the
+// distance n . (p - q) changes with a turn by ((q - pivot) x n): the lever ends at the match.
 kernel void accumulate(int level, int2 size, int step, global const float* source_points,
                        global const float* source_normals, float4 camera, int8 frame,
                        global const float* target_points, global const float* target_normals,
@@ -113,8 +117,7 @@ kernel void accumulate(int level, int2 size, int step, global const float* sourc
     const Pixels at = sampled_pixels(row, first, columns, size.x, step);
     const int offset = row * size.x + first;
     const Vector p = sampled_vectors(at, first, columns, step, offset, source_points);
-    const Vector own =
-        turned(R, sampled_vectors(at, first, columns, step, offset, source_normals));
+    const Vector own = turned(R, sampled_vectors(at, first, columns, step, offset, source_normals));
     const Vector arm = turned(R, minus_point(p, from));
     const Vector moved = {arm.x + to[0], arm.y + to[1], arm.z + to[2]};
     const Truth there = p.z > (Lanes)0;
@@ -126,11 +129,7 @@ kernel void accumulate(int level, int2 size, int step, global const float* sourc
     const Truth matches = lands && inner(away, away) <= (Lanes)(max_distance * max_distance) &&
                           inner(own, own) > (Lanes)0 && inner(n, n) > (Lanes)0 &&
                           inner(own, n) >= (Lanes)least_cosine;
-#ifdef TARGET_NORMALS
-    add_matches(matches, arm, away, n, sums);
-#else
     add_matches(matches, minus_point(q, to), away, own, sums);
-#endif
     sums[LANDED] += WHERE(lands, (Lanes)1);
     sums[SAMPLES] += WHERE(there, (Lanes)1);
   }
@@ -147,8 +146,8 @@ static inline void add_runs(int runs, global const float* partials, global float
   barrier(CLK_GLOBAL_MEM_FENCE);
 }
 
-// One Gauss-Newton step, by one work-group. damping: share of the mean diagonal that pulls back to the start, so that
-// what the matches do not tell stays there; tolerance: mm that a last step stays below.
+// One Gauss-Newton step, by one work-group. damping: share of the mean diagonal that pulls back to the start,
+// so that what the matches do not tell stays there; tolerance: mm that a last step stays below.
 kernel void take_step(int level, int runs, global const float* partials, float damping, float tolerance,
                       global float* state) {
   if (state[STATUS] == FAILED || state[STATUS] == level + 1) return;

@@ -14,20 +14,39 @@ namespace pliant {
 struct ProjectiveIcpOptions {
   double max_distance = 10;    ///< mm; matches further apart are rejected
   double max_angle = 0.34907;  ///< radians (20 degrees); matches whose normals differ by more are rejected
-  /// From coarse to fine; each takes every so-many-th pixel of the source in both directions, half as many as
-  /// the one before, the last one all.
+  /// From coarse to fine. The last one takes all points of the source, each before it half as many in u and
+  /// v.
   int levels = 3;
-  int iterations = 10;          ///< at most, in each level
-  double coarse_distance = 80;  ///< mm, of the coarsest level; those between by equal factors
-  double coarse_angle = 1.0472; ///< radians (60 degrees), likewise, by equal steps
-  double damping = 1e-4;        ///< pull to the start, as a share of the mean diagonal of J^T J
-  double tolerance = 0.02;      ///< mm at the extent of the source; a shorter step ends a level
-  // A pose is no answer:
+  int iterations = 10;           ///< at most, in each level
+  double coarse_distance = 80;   ///< mm, of the coarsest level; those between by equal factors
+  double coarse_angle = 1.0472;  ///< radians (60 degrees), likewise, by equal steps
+  double tolerance = 0.05;       ///< mm at the extent of the source; a shorter step ends the last level
+  /// Pull to the start, as a share of the mean diagonal of J^T J with turns in mm at the source's extent.
+  double damping = 1e-4;
+  // A pose is a failure:
   double min_overlap = 0.1;  ///< where a smaller share of the source meets a point of the target
-  double min_inliers = 0.5;  ///< where a smaller share of what meets one has an accepted match
-  double max_error = 5;      ///< mm, where these are further from the planes of their matches
-  double max_shift = 200;    ///< mm, where the middle of the source moved further than that from the start
-  double max_turn = 0.5236;  ///< radians (30 degrees), where it turned further
+  double min_inliers = 0.3;  ///< where a smaller share of what meets one has an accepted match
+  double max_shift = 150;    ///< mm, where both the camera and the middle of the source moved further
+  double max_turn = 0.3491;  ///< radians (20 degrees), where it turned further from the start
+};
+
+/// A level for a source in some window.
+struct ProjectiveIcpLevel {
+  int step;  ///< pixels in u and v
+  double max_distance;
+  double max_angle;
+  double tolerance;  ///< mm
+};
+std::vector<ProjectiveIcpLevel> levels_of(const ProjectiveIcpOptions& options, const PixelWindow& window);
+
+/// What the last matching of an estimate tells.
+struct ProjectiveIcpState {
+  Eigen::Isometry3d pose;    ///< after the step that it led to
+  RigidEquations equations;  ///< before
+  Eigen::Vector3d middle;    ///< of the source, mm
+  double extent;             ///< root mean square distance of its points from there, mm
+  int iterations;
+  bool gave_up;  ///< no step could be made
 };
 
 /// Projective ICP on the device [thesis 3.3]: all points of the source, matched with the point of the target
@@ -35,8 +54,12 @@ struct ProjectiveIcpOptions {
 /// with the normals of the source, which is fused from many frames; a Gauss-Newton step by Cholesky. Coarse
 /// levels take fewer points and reach further.
 ///
-/// Directions that the surface does not tell, as a plane's sliding, stay at the start: each step pulls back to
-/// it by `damping`, which what is told hardly notices.
+/// Directions that the surface does not tell, as a plane's sliding, stay at the start: each step pulls back
+/// to it by `damping`, which what is told hardly notices. Those that it pulls by more than a tenth count as
+/// weak.
+///
+/// A pose is a failure by the last four options, when the matches lie as far from their planes as any that
+/// were accepted at random would, or when no step can be made.
 class ProjectiveIcp : public PoseEstimator {
  public:
   ProjectiveIcp(Device& device, const ProjectiveIcpOptions& options);
@@ -48,19 +71,10 @@ class ProjectiveIcp : public PoseEstimator {
   RigidEquations equations(const SurfaceMap& source, const SurfaceMap& target, const Eigen::Isometry3d& pose);
 
  private:
-  struct Level {
-    int number;
-    int step;  ///< pixels
-    float max_distance;
-    float least_cosine;
-  };
-  struct State;
-
-  std::vector<Level> levels_for(const PixelWindow& window) const;
   void begin(const SurfaceMap& source, int step, const Eigen::Isometry3d& start);
-  void iterate(const Level& level, const SurfaceMap& source, const SurfaceMap& target);
-  State read_state() const;
-  void judge(PoseEstimate& estimate, const State& state) const;
+  void iterate(int number, const ProjectiveIcpLevel& level, const SurfaceMap& source,
+               const SurfaceMap& target);
+  ProjectiveIcpState read_state() const;
 
   Device* device_;
   ProjectiveIcpOptions options_;
@@ -68,9 +82,16 @@ class ProjectiveIcp : public PoseEstimator {
   Array<float> state_;
 };
 
-/// Plain C++ references in double, pixel by pixel.
+/// The estimate with its judgement.
+PoseEstimate judged(const ProjectiveIcpState& state, const Eigen::Isometry3d& start,
+                    const ProjectiveIcpOptions& options);
+
+/// Plain C++ references in double, pixel by pixel, of ProjectiveIcp::equations about a pivot (mm, where the
+/// middle of the source is moved to), and of the whole estimate.
 RigidEquations projective_equations_reference(const SurfaceMap& source, const SurfaceMap& target,
                                               const Eigen::Isometry3d& pose, const Eigen::Vector3d& pivot,
-                                              const ProjectiveIcpOptions& options);
+                                              const ProjectiveIcpLevel& level);
+PoseEstimate projective_icp_reference(const SurfaceMap& source, const SurfaceMap& target,
+                                      const Eigen::Isometry3d& start, const ProjectiveIcpOptions& options);
 
 }  // namespace pliant

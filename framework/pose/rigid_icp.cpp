@@ -258,7 +258,7 @@ RigidIcpResult RigidIcp::read_result() {
   result.mean_error = equations.matches > 0 ? std::sqrt(equations.squares / equations.matches) : 0;
   result.after = residuals[0];
   result.before = residuals[1];
-  result.conditioning = conditioning_of(equations, extent[3]);
+  result.conditioning = conditioning_of(eigenvalues_of(equations, extent[3]));
   result.iterations = static_cast<int>(pose[iterations]);
   result.converged = pose[status] == static_cast<float>(options_.levels);
   explain(result, pose[status] < 0);

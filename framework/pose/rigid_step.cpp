@@ -10,13 +10,16 @@
 
 namespace pliant {
 
-double conditioning_of(const RigidEquations& equations, double size) {
+Eigen::Matrix<double, 6, 1> eigenvalues_of(const RigidEquations& equations, double size) {
   Eigen::Matrix<double, 6, 6> JtJ = equations.JtJ;
   JtJ.topRows<3>() /= size;
   JtJ.leftCols<3>() /= size;
-  const Eigen::Matrix<double, 6, 1> values =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(JtJ, Eigen::EigenvaluesOnly).eigenvalues();
-  return values[5] > 0 ? std::max(values[0], 0.0) / values[5] : 0;
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(JtJ, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+double conditioning_of(const Eigen::Matrix<double, 6, 1>& eigenvalues) {
+  return eigenvalues[5] > 0 ? std::max(eigenvalues[0], 0.0) / eigenvalues[5] : 0;
 }
 
 RigidEquations read_equations(const float* sums) {

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-
 namespace pliant {
 
 /// What one matching asks for: J^T J and J^T r of the point-to-plane distances [Eq. 3.2] of the accepted
@@ -20,9 +19,11 @@ struct RigidEquations {
   int samples = 0;     ///< all points, where they are counted
 };
 
-/// Least eigenvalue over the greatest of J^T J, turns measured in mm at distance `size` from the pivot: near 0
-/// where the surface may slide or turn along itself.
-double conditioning_of(const RigidEquations& equations, double size);
+/// Eigenvalues of J^T J, ascending, turns measured in mm at distance `size` from the pivot.
+Eigen::Matrix<double, 6, 1> eigenvalues_of(const RigidEquations& equations, double size);
+
+/// The least of them over the greatest: near 0 where the surface may slide or turn along itself.
+double conditioning_of(const Eigen::Matrix<double, 6, 1>& eigenvalues);
 
 /// Numbers that a matching adds up on the device: SUMS in rigid_step.cl.
 inline constexpr std::size_t rigid_sums = 32;

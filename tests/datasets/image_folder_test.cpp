@@ -92,6 +92,19 @@ TEST_F(ImageFolderFiles, OtherSizesAreErrors) {
   EXPECT_THAT(error_of(section("")), AllOf(HasSubstr("d11.png: 40x32"), HasSubstr("d9.png has 40x30")));
 }
 
+TEST_F(ImageFolderFiles, AFrameThatSeesNothingIsOneAndAWarningTells) {
+  write_depth(file("depth/d10.png"), DepthImage(width, height, 0));
+  write_mask(file("9_mask.png"), MaskImage(width, height, 0));
+  const auto stream = open(section(", mask: '*_mask.png', max_depth: 745"));
+  EXPECT_EQ(frames_of(*stream).size(), 3U);
+  EXPECT_THAT(stream->warnings(),
+              ElementsAre(HasSubstr("2 of 3 frames have no mask"),
+                          AllOf(HasSubstr("2 of 3 frames see nothing"), HasSubstr("d9.png"))));
+  EXPECT_THAT(testing::data_error_of([&] { testing::load(*testing::data_of(section(", first: 2")), 0); }),
+              HasSubstr("the source sees nothing"))
+      << "a pair of it is an error";
+}
+
 TEST_F(ImageFolderFiles, PatternsAndCameraAreChecked) {
   for (const char* pattern : {"depth.png", "*/d.png", "d*_*.png"})
     EXPECT_THAT(testing::config_error_of(section(fmt::format(", mask: '{}'", pattern))),

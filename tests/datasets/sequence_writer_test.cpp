@@ -28,7 +28,7 @@ const std::string scene =
 class SequenceWriterTest : public testing::TestFiles {
  protected:
   int write_scene(SequenceLayout layout) const {
-    return write_sequence(*data_of(scene)->open(shared_device(), 1), layout, file("out"));
+    return write_sequence(*data_of(scene)->open(shared_device(), 1), layout, file("out")).frames;
   }
   std::vector<Frame> frames() const {
     const auto stream = data_of(scene)->open(shared_device(), 1);

@@ -134,6 +134,23 @@ TEST(ReadPair, WarnsWhereTheColourCameraSeesNothingOfTheDepth) {
   EXPECT_THAT(warnings_of(-90000), ElementsAre("read 2", ::testing::HasSubstr("nothing of the source's")));
 }
 
+TEST(ReadPair, NeedsTwoFramesThatSeeSomething) {
+  const auto pair_of = [](Frame source, Frame target) {
+    ScriptedStream stream({std::move(source), std::move(target)});
+    read_pair(stream);
+  };
+  Frame blind = frame_at(1);
+  blind.depth = DepthImage(8, 6, 0);
+  EXPECT_THAT(
+      [&] { pair_of(frame_at(0), blind); },
+      ::testing::ThrowsMessage<DataError>("street: the target sees nothing: no valid depth inside its mask"));
+  blind = frame_at(0);
+  blind.mask = MaskImage(8, 6, 0);
+  EXPECT_THAT(
+      [&] { pair_of(blind, frame_at(1)); },
+      ::testing::ThrowsMessage<DataError>("street: the source sees nothing: no valid depth inside its mask"));
+}
+
 TEST(ReadPair, SaysWhenAFrameIsMissing) {
   const auto error_of = [](std::vector<Frame> frames) {
     ScriptedStream stream(std::move(frames));

@@ -30,7 +30,13 @@ std::vector<Eigen::Vector3d> posed(const Figure& figure, const std::string& pose
   const auto found = std::find_if(figure.poses.begin(), figure.poses.end(),
                                   [&](const NamedPose& known) { return known.name == pose; });
   if (found == figure.poses.end()) throw std::logic_error("no pose " + pose);
-  return figure.mesh.deform(mesh_pose(figure.mesh, *found, share));
+  return posed(figure.mesh, *found, share);
+}
+
+std::vector<Eigen::Vector3d> posed(const Mesh& mesh, const NamedPose& pose, double share) {
+  FigurePose form = rest_of(mesh);
+  add_pose(mesh, pose, share, form);
+  return mesh.deform(on_top(mesh.rest(), form));
 }
 
 std::size_t vertex_near(const Figure& figure, const Eigen::Vector3d& point) {

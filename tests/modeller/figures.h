@@ -18,6 +18,9 @@ Figure made(const std::string& name, const std::map<std::string, double>& identi
 /// The vertices of a figure in one of its poses, by name.
 std::vector<Eigen::Vector3d> posed(const Figure& figure, const std::string& pose, double share = 1);
 
+/// The vertices of a mesh at `share` of a pose.
+std::vector<Eigen::Vector3d> posed(const Mesh& mesh, const NamedPose& pose, double share = 1);
+
 /// The vertex nearest to a point (mm) at rest.
 std::size_t vertex_near(const Figure& figure, const Eigen::Vector3d& point);
 

@@ -118,8 +118,17 @@ TEST_P(EachFigure, EveryIdentityIsASurface) {
 
 TEST(Figures, APoseOfATargetOrJointThatTheMeshLacksIsRefused) {
   const Figure sheet = made("sheet");
-  EXPECT_THROW(mesh_pose(sheet.mesh, {"odd", "", {{"bent", 1}}, {}}), std::invalid_argument);
-  EXPECT_THROW(mesh_pose(sheet.mesh, {"odd", "", {}, {{"elbow", {1, 0, 0}}}}), std::invalid_argument);
+  const std::string target = sheet.mesh.targets.front().name;
+  FigurePose pose = rest_of(sheet.mesh);
+  try {
+    add_pose(sheet.mesh, {"odd", "", {{target + "x", 1}}, {}}, 1, pose);
+    FAIL() << "a target that is not there";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "the pose odd moves " + target + "x, which the mesh does not have; did you mean '" + target + "'?");
+  }
+  EXPECT_THROW(add_pose(sheet.mesh, {"odd", "", {}, {{"elbow", {1, 0, 0}}}}, 1, pose), std::invalid_argument);
 }
 
 TEST(Figures, AFistBringsFingertipsToThePalm) {

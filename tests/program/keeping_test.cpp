@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "framework/io/images.h"
@@ -28,17 +27,6 @@ class KeepingTest : public ProgramTest {
           "extends: methods/ed.yaml\n"
           "data: {type: synthetic_sheet, image_width: 160, image_height: 120, focal_length: 131.25}\n"
           "graph: {spacing: 12}\n");
-  }
-
-  /// Every file below a folder with a number that tells its bytes from others.
-  std::map<std::string, std::size_t> all_of(const std::string& folder) const {
-    std::map<std::string, std::size_t> files;
-    for (const auto& entry : fs::recursive_directory_iterator(file(folder)))
-      if (!entry.is_directory()) {
-        const auto bytes = read_file(entry.path().string());
-        files[entry.path().string()] = std::hash<std::string>()({bytes.begin(), bytes.end()});
-      }
-    return files;
   }
 
   /// Does what a shell does with `script` in the test's folder; $PLIANT is the program. Gives its exit code.

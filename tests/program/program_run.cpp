@@ -3,6 +3,8 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <functional>
 #include <sstream>
 
 namespace pliant::testing {
@@ -24,6 +26,16 @@ ProgramRun ProgramTest::call(const std::string& arguments, const std::string& en
   run.out = text_of("stdout.txt");
   run.err = text_of("stderr.txt");
   return run;
+}
+
+std::map<std::string, std::size_t> ProgramTest::all_of(const std::string& folder) const {
+  std::map<std::string, std::size_t> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(file(folder)))
+    if (!entry.is_directory()) {
+      const auto bytes = read_file(entry.path().string());
+      files[entry.path().string()] = std::hash<std::string>()({bytes.begin(), bytes.end()});
+    }
+  return files;
 }
 
 std::string ProgramTest::text_of(const std::string& name) const {

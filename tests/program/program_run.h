@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,9 @@ class ProgramTest : public TestFiles {
 
   /// Calls another copy of the program from now on.
   void set_program(const std::string& path) { program_ = path; }
+
+  /// Every file below a folder with a number that tells its bytes from others.
+  std::map<std::string, std::size_t> all_of(const std::string& folder) const;
 
   std::string text_of(const std::string& name) const;
 

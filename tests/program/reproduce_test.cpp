@@ -4,7 +4,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/program/program_run.h"
@@ -36,17 +35,6 @@ class ReproduceTest : public ProgramTest {
 
   void add(const std::string& name, const std::string& text) const {
     write_file((experiments_ / name).string(), {text.begin(), text.end()});
-  }
-
-  /// Every file below a folder with a number that tells its bytes from others.
-  std::map<std::string, std::size_t> all_of(const std::string& folder) const {
-    std::map<std::string, std::size_t> files;
-    for (const auto& entry : fs::recursive_directory_iterator(file(folder)))
-      if (!entry.is_directory()) {
-        const auto bytes = read_file(entry.path().string());
-        files[entry.path().string()] = std::hash<std::string>()({bytes.begin(), bytes.end()});
-      }
-    return files;
   }
 
   const std::string small =
