@@ -13,7 +13,6 @@
 
 #include "framework/geometry/image.h"
 #include "framework/geometry/pixel_window.h"
-#include "framework/io/images.h"
 #include "tests/program/program_run.h"
 
 namespace pliant::testing {
@@ -128,7 +127,6 @@ TEST_F(ShowTest, ShowsFourPanelsThatDifferAndEndsWithWhatThereIs) {
       if (colors_of(part_of(seen, panel(place))) < 20) return false;
     return true;
   });
-  write_color(fs::temp_directory_path() / "pliant_show.png", seen);
   EXPECT_TRUE(is_shown) << text_of("err.txt");
   for (const int place : {0, 1, 2})
     EXPECT_NE(part_of(seen, panel(place)), part_of(seen, panel(place + 1))) << place;
