@@ -27,7 +27,7 @@ class TrackerTest : public ExperimentFiles {
                       std::to_string(frames) +
                       ", keys: {a: {at: 0}, b: {at: 0.36, camera: "
                       "{look_from: [60, -20, 10]}}}}",
-                  "model={type: tsdf, resolution: 96}"})
+                  "model={type: tsdf, volume: fitted, resolution: 96}"})
                 .runs.at(0)
                 .values),
         method_(make_tracking_method(values_, registry_)),
