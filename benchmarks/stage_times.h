@@ -1,10 +1,12 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "framework/geometry/frame.h"
+#include "framework/geometry/pixel_window.h"
 
 namespace pliant::bench {
 
@@ -21,6 +23,8 @@ struct TrackedImages {
   Frame before;
   Frame after;
   Eigen::Isometry3d after_from_before;  ///< the true motion of the camera's frames, mm
+  PixelWindow region;                   ///< of the image, that is tracked
+  double depth_cut;                     ///< mm; 0: nothing is cut
 };
 
 }  // namespace pliant::bench
