@@ -36,5 +36,6 @@ int run_solver_mode(const Options& options);
 int run_kernels_mode(const Options& options);
 int run_pair_mode(const Options& options);
 int run_render_mode(const Options& options);
+int run_pose_mode(const Options& options);
 
 }  // namespace pliant::bench

@@ -37,12 +37,14 @@ int main(int argument_count, char** arguments) {
   auto* pair = add_mode("pair", "Whole registrations of each data set with each method");
   pair->add_option("--data", options.data, "Folder in which data is looked for first");
   const auto* render = add_mode("render", "Frames of a mesh with their truth, on the device and on the host");
+  const auto* pose = add_mode("pose", "Rigid tracking of sequences whose poses are known, beside OpenCV's");
   CLI11_PARSE(app, argument_count, arguments);
   try {
     if (solver->parsed()) return pliant::bench::run_solver_mode(options);
     if (kernels->parsed()) return pliant::bench::run_kernels_mode(options);
     if (pair->parsed()) return pliant::bench::run_pair_mode(options);
     if (render->parsed()) return pliant::bench::run_render_mode(options);
+    if (pose->parsed()) return pliant::bench::run_pose_mode(options);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 1;

@@ -10,5 +10,6 @@ FigureKind hand_figure();
 FigureKind head_figure();
 FigureKind bag_figure();
 FigureKind body_figure();
+FigureKind room_figure();
 
 }  // namespace pliant

@@ -6,6 +6,7 @@
 #include "framework/deformation/node_transform.h"
 #include "framework/imaging/depth_filter.h"
 #include "framework/pose/alignments.h"
+#include "framework/pose/pose_estimator.h"
 #include "framework/registration/correspondence.h"
 #include "framework/registration/handle.h"
 #include "graphs/graphs.h"
@@ -18,6 +19,7 @@ void register_everything(Registry& registry) {
   register_datasets(registry);
   register_filters(registry);
   register_alignments(registry);
+  register_pose_estimators(registry);
   register_graphs(registry);
   register_transforms(registry);
   register_samplers(registry);

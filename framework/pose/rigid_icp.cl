@@ -1,5 +1,5 @@
 // Rigid ICP [thesis 3.3]: projective matches, point to plane [Eq. 3.2], several poses side by side. Compiled
-// behind lanes.cl and surface_map.cl.
+// behind lanes.cl, surface_map.cl and rigid_step.cl.
 //
 // Samples lie coordinate by coordinate (x y z of the point, then of its normal), `padded` to whole vectors; a
 // sample without a point has z = 0. A pose is 16 numbers: the rows of R, where the pivot goes, and what
@@ -12,13 +12,6 @@
 #define SPREAD 14  // root mean square distance of its last matches in the last level; 0: none yet
 #define FAILED -1
 #define LEAST_TRIM 0.1f  // of max_distance
-
-// What a chunk of samples adds up: the upper triangle of J^T J, J^T r, the sum of r^2 and of matches.
-#define SUMS 32
-#define GRADIENT 21
-#define SQUARES 27
-#define MATCHES 28
-#define LANDED 29
 
 #define CHUNK (16 * WIDTH)  // samples that a work-item adds up
 
@@ -170,9 +163,8 @@ kernel void accumulate(int count, int level, int padded, global const float* sam
   const float farthest_plane =
       trim > 0 && pose[SPREAD] > 0 ? fmax(trim * pose[SPREAD], LEAST_TRIM * max_distance) : far;
   const int first = (get_global_id(0) - which * chunks) * CHUNK;
-  Lanes sums[LANDED + 1];
-#pragma unroll
-  for (int k = 0; k <= LANDED; ++k) sums[k] = 0;
+  Lanes sums[SUMS_USED];
+  clear_sums(sums);
   for (int i = first; i < min(first + CHUNK, padded); i += WIDTH) {
     const Vector p = load(samples, padded, i);
     const Vector arm = arm_of(&motion, p);
@@ -186,27 +178,10 @@ kernel void accumulate(int count, int level, int padded, global const float* sam
     const Truth matches = lands && inner(n, n) > (Lanes)0 && inner(offset, offset) <= (Lanes)(far * far) &&
                           fabs(inner(offset, n)) <= (Lanes)farthest_plane &&
                           (inner(own, n) >= (Lanes)least_cosine || inner(own, own) == (Lanes)0);
-    const Lanes normal[3] = {WHERE(matches, n.x), WHERE(matches, n.y), WHERE(matches, n.z)};
-    const Lanes away[3] = {WHERE(matches, offset.x), WHERE(matches, offset.y), WHERE(matches, offset.z)};
-    const Lanes lever[3] = {arm.x, arm.y, arm.z};
-    const Lanes r = plane_distance(away, normal);
-    Lanes J[6];
-    plane_distance_jacobian(lever, normal, J);
-    int k = 0;
-#pragma unroll
-    for (int a = 0; a < 6; ++a)
-#pragma unroll
-      for (int b = a; b < 6; ++b) sums[k++] += J[a] * J[b];
-#pragma unroll
-    for (int a = 0; a < 6; ++a) sums[k++] += J[a] * r;
-    sums[SQUARES] += r * r;
-    sums[MATCHES] += WHERE(matches, (Lanes)1);
+    add_matches(matches, arm, offset, n, sums);
     sums[LANDED] += WHERE(lands, (Lanes)1);
   }
-  global float* partial = partials + SUMS * get_global_id(0);
-#pragma unroll
-  for (int k = 0; k <= LANDED; ++k) partial[k] = sum_of(sums[k]);
-  for (int k = LANDED + 1; k < SUMS; ++k) partial[k] = 0;
+  store_sums(sums, partials + SUMS * get_global_id(0));
 }
 
 // Sums of all chunks of a pose, in order.
@@ -227,48 +202,7 @@ kernel void add_up(int padded, global const float* partials, global float* sums)
   for (int k = 0; k < SUMS; ++k) sums[k] = added[k];
 }
 
-// Solves A x = b for a positive definite A by its factor L L^T, in place; b becomes x. Whether it could.
-static inline int solve_cholesky(float* A, float* b) {
-  for (int j = 0; j < 6; ++j) {
-    for (int i = 0; i < j; ++i)
-      for (int row = j; row < 6; ++row) A[6 * row + j] -= A[6 * row + i] * A[6 * j + i];
-    if (!(A[7 * j] > 0)) return 0;
-    const float scale = rsqrt(A[7 * j]);
-    for (int row = j; row < 6; ++row) A[6 * row + j] *= scale;
-  }
-  for (int j = 0; j < 6; ++j) {
-    for (int i = 0; i < j; ++i) b[j] -= A[6 * j + i] * b[i];
-    b[j] /= A[7 * j];
-  }
-  for (int j = 5; j >= 0; --j) {
-    for (int i = j + 1; i < 6; ++i) b[j] -= A[6 * i + j] * b[i];
-    b[j] /= A[7 * j];
-  }
-  return 1;
-}
-
-static inline float3 turn_by(float3 axis, float sine, float cosine, float3 v) {
-  return cosine * v + sine * cross(axis, v) + (1 - cosine) * dot(axis, v) * axis;
-}
-
-// Turns the rows of R as a matrix: R <- exp(turn) R, made orthonormal again.
-static inline void turn_pose(float3 turn, global float* pose) {
-  const float angle = length(turn);
-  const float3 axis = angle > 0 ? turn / angle : (float3)(1, 0, 0);
-  const float sine = sin(angle), cosine = cos(angle);
-  float3 x = turn_by(axis, sine, cosine, (float3)(pose[0], pose[3], pose[6]));
-  float3 y = turn_by(axis, sine, cosine, (float3)(pose[1], pose[4], pose[7]));
-  x = x / length(x);
-  y = y - dot(x, y) * x;
-  y = y / length(y);
-  const float3 z = cross(x, y);
-  vstore3((float3)(x.x, y.x, z.x), 0, pose);
-  vstore3((float3)(x.y, y.y, z.y), 1, pose);
-  vstore3((float3)(x.z, y.z, z.z), 2, pose);
-}
-
-// One Gauss-Newton step of each pose. Turns are solved for in mm at the object's extent, so that all six
-// unknowns are alike. damping: share of the mean diagonal, which keeps still what the matches do not tell;
+// One Gauss-Newton step of each pose. damping: share of the mean diagonal, which keeps still what the matches do not tell;
 // tolerance: share of the level's distance that a last step stays below.
 kernel void take_step(int count, int level, int padded, global const float* partials,
                       global const float4* extents, float max_distance, float coarse, float share, float trim,
@@ -283,15 +217,7 @@ kernel void take_step(int count, int level, int padded, global const float* part
   if (trim > 0 && sums[MATCHES] > 0) pose[SPREAD] = sqrt(sums[SQUARES] / sums[MATCHES]);
   const float extent = extents[0].w;
   float A[36], b[6];
-  float trace = 0;
-  int k = 0;
-  for (int i = 0; i < 6; ++i) {
-    const float unit = i < 3 ? 1 / extent : 1;
-    for (int j = i; j < 6; ++j) A[6 * j + i] = sums[k++] * unit * (j < 3 ? 1 / extent : 1);
-    b[i] = -sums[GRADIENT + i] * unit;
-    trace += A[7 * i];
-  }
-  for (int i = 0; i < 6; ++i) A[7 * i] += damping * trace / 6;
+  scaled_equations(sums, extent, damping, A, b);
   if (!(sums[MATCHES] >= fewest) || !solve_cholesky(A, b)) {
     pose[STATUS] = FAILED;
     return;

@@ -2,22 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include "framework/pose/rigid_equation.h"
-#include "framework/pose/rigid_equation.h.embed.h"
 #include "framework/pose/rigid_icp.cl.embed.h"
-#include "framework/problem/equation_source.h"
 
 namespace pliant {
 namespace {
 
 constexpr std::size_t pose_size = 16;  // POSE_SIZE in rigid_icp.cl, and so on
-constexpr std::size_t sums_size = 32;  // SUMS
 constexpr std::size_t pivot = 9;
 constexpr std::size_t status = 12;
 constexpr std::size_t iterations = 13;
@@ -44,12 +40,8 @@ void make_room(Array<float>& array, std::size_t size) {
 }
 
 cl::Kernel icp_kernel(Device& device, const std::string& name) {
-  const auto source_over = [](const std::string& real) {
-    return with_surface_map(as_opencl(embedded::framework_pose_rigid_equation_h, real) +
-                            std::string(embedded::framework_pose_rigid_icp_cl));
-  };
-  static const std::string scalar = source_over("float");
-  static const std::string vector = source_over("float16");
+  static const std::string scalar = with_rigid_step(1, embedded::framework_pose_rigid_icp_cl);
+  static const std::string vector = with_rigid_step(16, embedded::framework_pose_rigid_icp_cl);
   return device.kernel(device.width() == 1 ? scalar : vector, name);
 }
 
@@ -66,17 +58,6 @@ std::vector<Eigen::Quaterniond> search_turns(double angle) {
     for (int axis = 0; axis < 2; ++axis) turns.push_back(turn(2 * sign * angle, Eigen::Vector3d::Unit(axis)));
   }
   return turns;
-}
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-/// Least eigenvalue over the greatest, turns measured in mm at distance `size` from the pivot.
-double conditioning_of(Matrix6 JtJ, double size) {
-  JtJ.topRows<3>() /= size;
-  JtJ.leftCols<3>() /= size;
-  const Eigen::Matrix<double, 6, 1> values =
-      Eigen::SelfAdjointEigenSolver<Matrix6>(JtJ, Eigen::EigenvaluesOnly).eigenvalues();
-  return values[5] > 0 ? std::max(values[0], 0.0) / values[5] : 0;
 }
 
 /// Why there is no answer, or none that stands still.
@@ -146,7 +127,7 @@ void RigidIcp::set_out(const std::vector<Start>& starts) {
 void RigidIcp::accumulate(const Level& level, int number, int poses, const SeenSurface& target) {
   const auto items = static_cast<std::size_t>(poses) * chunks_of(level.samples.padded, device_->width());
   const double angle = level.share * options_.coarse_angle + (1 - level.share) * options_.max_angle;
-  make_room(partials_, sums_size * items);
+  make_room(partials_, rigid_sums * items);
   auto kernel = icp_kernel(*device_, "accumulate");
   device_->run("icp", kernel, items, 1, poses, number, level.samples.padded,
                level.samples.values.device(*device_), poses_.device(*device_), extents_.device(*device_),
@@ -230,7 +211,7 @@ RigidEquations RigidIcp::equations(const SeenSurface& source, const SeenSurface&
   prepare(source, target);
   set_out({{pose, false}});
   accumulate(levels_.back(), -1, 1, target);
-  RigidEquations equations = read_equations();
+  RigidEquations equations = read_sums();
   equations.pivot = pose * Eigen::Vector3d(read_extent().head<3>());
   return equations;
 }
@@ -251,27 +232,19 @@ std::vector<TwoWayResidual> RigidIcp::read_residuals(std::size_t count) {
   return residuals;
 }
 
-RigidEquations RigidIcp::read_equations() {
-  make_room(sums_, sums_size);
+RigidEquations RigidIcp::read_sums() {
+  make_room(sums_, rigid_sums);
   auto kernel = icp_kernel(*device_, "add_up");
   device_->run("icp", kernel, 1, 1, levels_.back().samples.padded, partials_.device(*device_),
                sums_.write_device(*device_));
-  std::array<float, sums_size> sums{};
+  std::array<float, rigid_sums> sums{};
   device_->read(sums_.device(*device_), sums.data(), sizeof(sums));
-  RigidEquations equations;
-  std::size_t k = 0;
-  for (int i = 0; i < 6; ++i)
-    for (int j = i; j < 6; ++j) equations.JtJ(i, j) = equations.JtJ(j, i) = sums[k++];
-  for (int i = 0; i < 6; ++i) equations.Jtr[i] = sums[k++];
-  equations.squares = sums[k++];
-  equations.matches = static_cast<int>(sums[k++]);
-  equations.landed = static_cast<int>(sums[k]);
-  return equations;
+  return read_equations(sums.data());
 }
 
 RigidIcpResult RigidIcp::read_result() {
   RigidIcpResult result;
-  const RigidEquations equations = read_equations();  // waits
+  const RigidEquations equations = read_sums();  // waits
   const std::vector<TwoWayResidual> residuals = read_residuals(2);
   const Eigen::Vector4d extent = read_extent();
   std::array<float, pose_size> pose{};
@@ -285,7 +258,7 @@ RigidIcpResult RigidIcp::read_result() {
   result.mean_error = equations.matches > 0 ? std::sqrt(equations.squares / equations.matches) : 0;
   result.after = residuals[0];
   result.before = residuals[1];
-  result.conditioning = conditioning_of(equations.JtJ, extent[3]);
+  result.conditioning = conditioning_of(eigenvalues_of(equations, extent[3]));
   result.iterations = static_cast<int>(pose[iterations]);
   result.converged = pose[status] == static_cast<float>(options_.levels);
   explain(result, pose[status] < 0);

@@ -7,6 +7,7 @@
 #include "framework/device/array.h"
 #include "framework/device/device.h"
 #include "framework/geometry/surface_map.h"
+#include "framework/pose/rigid_step.h"
 
 namespace pliant {
 
@@ -35,17 +36,6 @@ struct RigidIcpOptions {
 struct SeenSurface {
   const SurfaceMap& map;
   const Array<int>& pixels;  ///< offsets in the map's window of pixels that have a point
-};
-
-/// What one matching asks for: J^T J and J^T r of the point-to-plane distances [Eq. 3.2] of the accepted
-/// matches by a small turn about a pivot (radians), then a shift (mm).
-struct RigidEquations {
-  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();  ///< where the middle of the source is moved to, mm
-  Eigen::Matrix<double, 6, 6> JtJ = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> Jtr = Eigen::Matrix<double, 6, 1>::Zero();
-  double squares = 0;  ///< sum of squared distances, mm^2
-  int matches = 0;     ///< that are accepted
-  int landed = 0;      ///< points whose pixel has a point of the target
 };
 
 /// How ill a pose explains what both cameras saw: the mean distance of the moved source from the target at
@@ -119,7 +109,7 @@ class RigidIcp {
   void judge(int poses, const SeenSurface& source, const SeenSurface& target);
   Eigen::Vector4d read_extent();
   std::vector<TwoWayResidual> read_residuals(std::size_t count);
-  RigidEquations read_equations();
+  RigidEquations read_sums();
   RigidIcpResult read_result();
 
   Device* device_;

@@ -36,13 +36,13 @@ TEST(CountIntersections, FindsTrianglesThatPassThroughEachOther) {
 
 class EachFigure : public ::testing::TestWithParam<std::string> {};
 
-INSTANTIATE_TEST_SUITE_P(Figures, EachFigure, ::testing::Values("sheet", "hand", "head", "bag", "body"),
+INSTANTIATE_TEST_SUITE_P(Figures, EachFigure, ::testing::Values("sheet", "hand", "head", "bag", "body", "room"),
                          [](const auto& info) { return info.param; });
 
 TEST(Figures, AreListedAndTested) {
   std::vector<std::string> names;
   for (const FigureKind& kind : figure_kinds()) names.push_back(kind.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"sheet", "hand", "head", "bag", "body"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"sheet", "hand", "head", "bag", "body", "room"}));
 }
 
 double farthest(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "framework/device/array.h"
+#include "framework/device/device.h"
+#include "framework/geometry/surface_map.h"
+#include "framework/pose/pose_estimator.h"
+#include "framework/pose/rigid_step.h"
+
+namespace pliant {
+
+struct ProjectiveIcpOptions {
+  double max_distance = 10;    ///< mm; matches further apart are rejected
+  double max_angle = 0.34907;  ///< radians (20 degrees); matches whose normals differ by more are rejected
+  /// From coarse to fine. The last one takes all points of the source, each before it half as many in u and
+  /// v.
+  int levels = 3;
+  int iterations = 10;           ///< at most, in each level
+  double coarse_distance = 80;   ///< mm, of the coarsest level; those between by equal factors
+  double coarse_angle = 1.0472;  ///< radians (60 degrees), likewise, by equal steps
+  double tolerance = 0.05;       ///< mm at the extent of the source; a shorter step ends the last level
+  /// Pull to the start, as a share of the mean diagonal of J^T J with turns in mm at the source's extent.
+  double damping = 1e-4;
+  // A pose is a failure:
+  double min_overlap = 0.1;  ///< where a smaller share of the source meets a point of the target
+  double min_inliers = 0.3;  ///< where a smaller share of what meets one has an accepted match
+  double max_shift = 150;    ///< mm, where both the camera and the middle of the source moved further
+  double max_turn = 0.3491;  ///< radians (20 degrees), where it turned further from the start
+};
+
+/// A level for a source in some window.
+struct ProjectiveIcpLevel {
+  int step;  ///< pixels in u and v
+  double max_distance;
+  double max_angle;
+  double tolerance;  ///< mm
+};
+std::vector<ProjectiveIcpLevel> levels_of(const ProjectiveIcpOptions& options, const PixelWindow& window);
+
+/// What the last matching of an estimate tells.
+struct ProjectiveIcpState {
+  Eigen::Isometry3d pose;    ///< after the step that it led to
+  RigidEquations equations;  ///< before
+  Eigen::Vector3d middle;    ///< of the source, mm
+  double extent;             ///< root mean square distance of its points from there, mm
+  int iterations;
+  bool gave_up;  ///< no step could be made
+};
+
+/// Projective ICP on the device [thesis 3.3]: all points of the source, matched with the point of the target
+/// at their pixel, constant weights, rejection by distance and by the angle between normals; point to plane
+/// with the normals of the source, which is fused from many frames; a Gauss-Newton step by Cholesky. Coarse
+/// levels take fewer points and reach further.
+///
+/// Directions that the surface does not tell, as a plane's sliding, stay at the start: each step pulls back
+/// to it by `damping`, which what is told hardly notices. Those that it pulls by more than a tenth count as
+/// weak.
+///
+/// A pose is a failure by the last four options, when the matches lie as far from their planes as any that
+/// were accepted at random would, or when no step can be made.
+class ProjectiveIcp : public PoseEstimator {
+ public:
+  ProjectiveIcp(Device& device, const ProjectiveIcpOptions& options);
+
+  PoseEstimate estimate(const SurfaceMap& source, const SurfaceMap& target,
+                        const Eigen::Isometry3d& start) override;
+
+  /// One matching of all points at a pose, by the limits of the last level.
+  RigidEquations equations(const SurfaceMap& source, const SurfaceMap& target, const Eigen::Isometry3d& pose);
+
+ private:
+  void begin(const SurfaceMap& source, int step, const Eigen::Isometry3d& start);
+  void iterate(int number, const ProjectiveIcpLevel& level, const SurfaceMap& source,
+               const SurfaceMap& target);
+  ProjectiveIcpState read_state() const;
+
+  Device* device_;
+  ProjectiveIcpOptions options_;
+  Array<float> partials_;
+  Array<float> state_;
+};
+
+/// The estimate with its judgement.
+PoseEstimate judged(const ProjectiveIcpState& state, const Eigen::Isometry3d& start,
+                    const ProjectiveIcpOptions& options);
+
+/// Plain C++ references in double, pixel by pixel, of ProjectiveIcp::equations about a pivot (mm, where the
+/// middle of the source is moved to), and of the whole estimate.
+RigidEquations projective_equations_reference(const SurfaceMap& source, const SurfaceMap& target,
+                                              const Eigen::Isometry3d& pose, const Eigen::Vector3d& pivot,
+                                              const ProjectiveIcpLevel& level);
+PoseEstimate projective_icp_reference(const SurfaceMap& source, const SurfaceMap& target,
+                                      const Eigen::Isometry3d& start, const ProjectiveIcpOptions& options);
+
+}  // namespace pliant
