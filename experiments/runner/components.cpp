@@ -5,6 +5,7 @@
 #include "experiments/report/reports.h"
 #include "framework/deformation/node_transform.h"
 #include "framework/imaging/depth_filter.h"
+#include "framework/model/reference_model.h"
 #include "framework/pose/alignments.h"
 #include "framework/pose/pose_estimator.h"
 #include "framework/registration/correspondence.h"
@@ -18,6 +19,7 @@ namespace pliant {
 void register_everything(Registry& registry) {
   register_datasets(registry);
   register_filters(registry);
+  register_models(registry);
   register_alignments(registry);
   register_pose_estimators(registry);
   register_graphs(registry);

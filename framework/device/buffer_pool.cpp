@@ -69,6 +69,7 @@ Buffer BufferPool::take(std::size_t bytes, std::size_t most) {
     made = std::make_shared<const cl::Buffer>(context_, CL_MEM_READ_WRITE, size);
     buffers_.emplace(size, made);
     ++allocations_;
+    allocated_bytes_ += size;
   }
   return Buffer(std::move(made));
 }

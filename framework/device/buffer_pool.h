@@ -64,11 +64,14 @@ class BufferPool {
 
   /// How many buffers were made so far.
   std::uint64_t allocations() const { return allocations_; }
+  /// What they take together, those that were dropped since included.
+  std::uint64_t allocated_bytes() const { return allocated_bytes_; }
 
  private:
   cl::Context context_;
   std::multimap<std::size_t, std::shared_ptr<const cl::Buffer>> buffers_;  // by size
   std::uint64_t allocations_ = 0;
+  std::uint64_t allocated_bytes_ = 0;
 };
 
 }  // namespace pliant

@@ -302,6 +302,7 @@ void Device::finish() const {
 DeviceCounts Device::counts() const {
   DeviceCounts counts = counts_;
   counts.allocations = pool_->allocations() + staging_.allocations();
+  counts.allocated_bytes = pool_->allocated_bytes();
   return counts;
 }
 

@@ -41,6 +41,7 @@ struct DeviceOptions {
 /// What a device was asked for since it was opened.
 struct DeviceCounts {
   std::uint64_t allocations = 0;  ///< of memory on the device, and on the host for what is on its way there
+  std::uint64_t allocated_bytes = 0;  ///< on the device
   std::uint64_t uploads = 0;      ///< copies from the host to the device
   std::uint64_t uploaded_bytes = 0;
   std::uint64_t reads = 0;  ///< copies from the device to the host

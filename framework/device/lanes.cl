@@ -7,7 +7,7 @@ typedef int16 Truth;  // of a comparison, lane by lane
 #define LOAD(address) vload16(0, address)
 #define STORE(value, address) vstore16(value, 0, address)
 #define LANE_OFFSETS ((Lanes)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
-#define ANY(condition) any(condition)
+#define ANY(condition) any_lane(condition)
 #elif WIDTH == 1
 typedef float Lanes;
 typedef int Truth;
@@ -20,6 +20,16 @@ typedef int Truth;
 #endif
 
 #define WHERE(condition, value) select((Lanes)0, value, condition)  // 0 elsewhere
+
+#if WIDTH == 16
+// Drivers for CPUs make a branch for each lane of any().
+static inline int any_lane(Truth condition) {
+  const int8 eight = condition.lo | condition.hi;
+  const int4 four = eight.lo | eight.hi;
+  const int2 two = four.lo | four.hi;
+  return two.x | two.y;
+}
+#endif
 
 typedef struct {
   Lanes x, y, z;

@@ -1,0 +1,146 @@
+// Fuses a depth map into a truncated signed distance field. Compiled behind tsdf_grid.cl. `window`: the
+// map's. The reference computes the same, rounding by rounding: products and sums are joined where it says
+// fma and nowhere else.
+#pragma OPENCL FP_CONTRACT OFF
+
+#if WIDTH == 16
+#define LOAD_DISTANCES(address) convert_float16(vload16(0, address))
+#define STORE_DISTANCES(value, address) vstore16(convert_short16(convert_int16_rte(value)), 0, address)
+#define STORE_WEIGHTS(value, address) vstore16(convert_uchar16(convert_int16(value)), 0, address)
+#else
+#define LOAD_DISTANCES(address) ((float)*(address))
+#define STORE_DISTANCES(value, address) (*(address) = convert_short(convert_int_rte(value)))
+#define STORE_WEIGHTS(value, address) (*(address) = convert_uchar(value))
+#endif
+
+// Least and greatest depth of each tile; the least is greater where there is none. Also empties the list that
+// find_bricks fills.
+kernel void bound_depth(global const float* depth, int stride, int4 window, global float* bounds,
+                        global int* found) {
+  const int2 tiles = tiles_over(window);
+  const int tile = get_global_id(0);
+  if (tile == 0) found[0] = 0;
+  if (tile >= tiles.x * tiles.y) return;
+  global const float* corner = depth + (HALO + tile / tiles.x * TILE) * stride + HALO + tile % tiles.x * TILE;
+  Lanes least = NO_DEPTH, greatest = -NO_DEPTH;
+  for (int row = 0; row < TILE; ++row) {
+    for (int column = 0; column < TILE; column += WIDTH) {
+      const Lanes d = LOAD(corner + row * stride + column);
+      least = fmin(least, d);
+      greatest = fmax(greatest, select((Lanes)-NO_DEPTH, d, d < (Lanes)NO_DEPTH));
+    }
+  }
+  float lows[WIDTH], highs[WIDTH];
+  STORE(least, lows);
+  STORE(greatest, highs);
+  for (int lane = 1; lane < WIDTH; ++lane) {
+    lows[0] = fmin(lows[0], lows[lane]);
+    highs[0] = fmax(highs[0], highs[lane]);
+  }
+  vstore2((float2)(lows[0], highs[0]), tile, bounds);
+}
+
+// Whether the map may tell something of a voxel of the brick: the surface of one that may be near, or that
+// nothing is where the brick has something.
+bool is_told_of(Box box, bool is_observed, int4 tiles, int tile_columns, float truncation,
+                global const float* bounds) {
+  const float near = box.centre.z - box.reach.z - truncation, far = box.centre.z + box.reach.z + truncation;
+  for (int row = tiles.y; row <= tiles.w; ++row) {
+    for (int column = tiles.x; column <= tiles.z; ++column) {
+      const float2 bound = vload2(row * tile_columns + column, bounds);
+      if (near <= bound.y && (is_observed || far >= bound.x)) return true;
+    }
+  }
+  return false;
+}
+
+// Lists the bricks that fuse() looks at: how many, then which; in any order, as each is fused apart.
+kernel void find_bricks(int4 bricks, float16 placing, float4 camera, int4 window, float truncation,
+                        global const float* bounds, global int* contents, global int* found) {
+  const int index = get_global_id(0);
+  if (index >= bricks.x * bricks.y * bricks.z) return;
+  const Box box = box_of(brick_at(index, bricks), 0.0f, placing);
+  const int4 tiles = tiles_of(box, camera, window);
+  const bool is_observed = contents[index] != 0;
+  if (is_told_of(box, is_observed, tiles, tiles_over(window).x, truncation, bounds)) {
+    contents[index] = 0;  // fuse() says anew
+    found[1 + atomic_inc(found)] = index;
+  }
+}
+
+typedef struct {
+  Lanes depth;  // mm
+  Truth is_known;
+} Seen;
+
+// What the map shows at places in the image: the depth between four pixels, of which those count that have
+// about the depth of the nearest one.
+Seen depth_at(Lanes u, Lanes v, Truth in_front, int4 window, int stride, float truncation,
+              global const float* depth) {
+  const Lanes left = floor(u), top = floor(v), a = u - left, b = v - top;
+  const Truth is_right = a >= (Lanes)0.5f, is_lower = b >= (Lanes)0.5f;
+  const Lanes column = left + select((Lanes)0, (Lanes)1, is_right);
+  const Lanes row = top + select((Lanes)0, (Lanes)1, is_lower);
+  const int2 end = window.xy + window.zw;
+  const Truth in_window = in_front && column >= (Lanes)window.x && row >= (Lanes)window.y &&
+                          column < (Lanes)end.x && row < (Lanes)end.y;
+  int at[WIDTH];
+  const int first = (HALO - window.y) * stride + HALO - window.x;
+  STORE_INT(select((Truth)0, TO_INT(top) * stride + TO_INT(left) + first, in_window), at);
+  float d00[WIDTH], d10[WIDTH], d01[WIDTH], d11[WIDTH];
+  for (int lane = 0; lane < WIDTH; ++lane) d00[lane] = depth[at[lane]];
+  for (int lane = 0; lane < WIDTH; ++lane) d10[lane] = depth[at[lane] + 1];
+  for (int lane = 0; lane < WIDTH; ++lane) d01[lane] = depth[at[lane] + stride];
+  for (int lane = 0; lane < WIDTH; ++lane) d11[lane] = depth[at[lane] + stride + 1];
+  const Lanes nearest =
+      select(select(LOAD(d00), LOAD(d10), is_right), select(LOAD(d01), LOAD(d11), is_right), is_lower);
+#define NEAR(values) select(nearest, LOAD(values), fabs(LOAD(values) - nearest) < (Lanes)truncation)
+  const Lanes upper = fma(a, NEAR(d10) - NEAR(d00), NEAR(d00));
+  const Lanes lower = fma(a, NEAR(d11) - NEAR(d01), NEAR(d01));
+  const Seen seen = {fma(b, lower - upper, upper), in_window && nearest < (Lanes)NO_DEPTH};
+  return seen;
+}
+
+// A work-group fuses one brick after another.
+kernel void fuse(global const int* found, int4 bricks, float16 placing, float4 camera, int4 window,
+                 int stride, float truncation, float max_weight, global const float* depth,
+                 global short* distances, global uchar* weights, global int* contents) {
+  const int2 pitch = {bricks.x * BRICK_X, bricks.y * BRICK_Y};
+  const Lanes scale = STEPS / truncation;
+  for (int n = get_group_id(0); n < found[0]; n += get_num_groups(0)) {
+    const int3 corner = brick_at(found[1 + n], bricks) * (int3)(BRICK_X, BRICK_Y, BRICK_Z);
+    Truth any_observed = 0, any_inside = 0;
+    for (int part = get_local_id(0); part < BRICK_X * BRICK_Y * BRICK_Z / WIDTH; part += get_local_size(0)) {
+      const int i = part * WIDTH;
+      const int3 voxel = corner + (int3)(i % BRICK_X, i / BRICK_X % BRICK_Y, i / (BRICK_X * BRICK_Y));
+      const Lanes x = convert_float(voxel.x) + LANE_OFFSETS;
+      const float y = voxel.y, z = voxel.z;
+      const Lanes px = fma((Lanes)placing.s0, x, (Lanes)fma(placing.s1, y, fma(placing.s2, z, placing.s3)));
+      const Lanes py = fma((Lanes)placing.s4, x, (Lanes)fma(placing.s5, y, fma(placing.s6, z, placing.s7)));
+      const Lanes pz = fma((Lanes)placing.s8, x, (Lanes)fma(placing.s9, y, fma(placing.sa, z, placing.sb)));
+      const Lanes inverse = 1.0f / pz;
+      const Lanes u = fma((Lanes)camera.x, px * inverse, (Lanes)camera.z);
+      const Lanes v = fma((Lanes)camera.y, py * inverse, (Lanes)camera.w);
+      const Seen seen = depth_at(u, v, pz > (Lanes)0, window, stride, truncation, depth);
+      const Lanes ahead = seen.depth - pz;  // mm from the voxel to the surface, along the axis
+
+      const size_t at = voxel.x + pitch.x * (voxel.y + (size_t)pitch.y * voxel.z);
+      const Lanes old = LOAD_DISTANCES(distances + at);
+      const Truth was_observed = old != (Lanes)0;
+      const Truth is_told =
+          seen.is_known && ahead >= (Lanes)-truncation && (was_observed || ahead < (Lanes)truncation);
+      Lanes now = old;
+      if (ANY(is_told)) {
+        const Lanes weight = LOAD_DISTANCES(weights + at);
+        const Lanes told = fmin(ahead, (Lanes)truncation) * scale;
+        const Lanes mean = rint(fma(old, weight, told) / (weight + 1.0f));
+        now = select(old, select(mean, (Lanes)1, mean == (Lanes)0), is_told);
+        STORE_DISTANCES(now, distances + at);
+        STORE_WEIGHTS(select(weight, fmin(weight + 1.0f, (Lanes)max_weight), is_told), weights + at);
+      }
+      any_observed = any_observed || now != (Lanes)0;
+      any_inside = any_inside || now < (Lanes)0;
+    }
+    atomic_or(contents + found[1 + n], (ANY(any_observed) ? OBSERVED : 0) | (ANY(any_inside) ? INSIDE : 0));
+  }
+}
