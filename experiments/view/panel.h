@@ -38,6 +38,6 @@ void paint_distances(cv::Mat panel, const PanelPixels& pixels, const Image<float
 
 /// The colours of a scale and what they stand for, in 10 rows of `scale_width` pixels from a corner on.
 void draw_scale(cv::Mat& canvas, cv::Point corner, const ColorScale& scale);
-inline constexpr int scale_width = 190;
+inline constexpr int scale_width = 200;
 
 }  // namespace pliant
