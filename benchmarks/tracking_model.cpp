@@ -10,7 +10,7 @@ namespace {
 
 constexpr int resolution = 256;       // voxels
 constexpr double side = 3000;         // mm
-constexpr double distance = 500;      // mm
+constexpr double distance = 300;      // mm
 constexpr double truncation = 5;      // voxels
 constexpr double margin = 0.25;       // of the object's longest side
 constexpr int max_weight = 64;        // frames
