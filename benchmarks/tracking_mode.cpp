@@ -6,7 +6,9 @@
 
 #include "benchmarks/bench.h"
 #include "benchmarks/tracked_images.h"
+#include "benchmarks/tracking_frame.h"
 #include "benchmarks/tracking_imaging.h"
+#include "benchmarks/tracking_model.h"
 
 namespace pliant::bench {
 namespace {
@@ -16,8 +18,9 @@ using nlohmann::ordered_json;
 /// What the stages of a frame are: each room of the framework gives its own.
 std::vector<StagePair> stages_of(Device& device, const TrackedImages& images) {
   std::vector<StagePair> stages;
-  for (const auto make : {imaging_stages})
-    for (StagePair& stage : make(device, images)) stages.push_back(std::move(stage));
+  for (StagePair& stage : imaging_stages(device, images)) stages.push_back(std::move(stage));
+  stages.push_back(icp_stage(device, images));
+  for (StagePair& stage : model_stages(device, images)) stages.push_back(std::move(stage));
   return stages;
 }
 
@@ -26,16 +29,13 @@ ordered_json row_of(const std::string& stage, double ours, double opencv) {
       {"stage", stage}, {"time_ms", ours}, {"opencv_time_ms", opencv}, {"ratio_to_opencv", ours / opencv}};
 }
 
-/// Each stage, and the frame: all of them one after the other.
+/// Each stage, and the whole frame; OpenCV has no tracker, so its stages stand for it, one after the other.
 ordered_json measure(Device& device, const std::string& name, const TrackedImages& images,
                      const Options& options) {
   const auto stages = stages_of(device, images);
-  const auto run_all = [&stages](std::function<void()> StagePair::*whose) {
-    return [&stages, whose] {
-      for (const StagePair& stage : stages) (stage.*whose)();
-    };
-  };
-  const StagePair frame{"frame", run_all(&StagePair::ours), run_all(&StagePair::opencv)};
+  const StagePair frame = whole_frame(device, images, [&stages] {
+    for (const StagePair& stage : stages) stage.opencv();
+  });
   Timings timings;
   const Repeats repeats{options.quick ? 3 : 15, options.quick ? 1 : 5};
   const auto key = [&](const StagePair& stage, const char* whose) {

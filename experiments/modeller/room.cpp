@@ -28,8 +28,7 @@ void add_grid(const Eigen::Vector3i& cells, const Place& place, Mesh& mesh) {
     for (int side = 0; side < 2; ++side)
       for (int i = 0; i < cells.dot(right); ++i)
         for (int j = 0; j < cells.dot(up); ++j) {
-          const Eigen::Vector3i low =
-              side * cells[axis] * Eigen::Vector3i::Unit(axis) + i * right + j * up;
+          const Eigen::Vector3i low = side * cells[axis] * Eigen::Vector3i::Unit(axis) + i * right + j * up;
           const Eigen::Vector3i& first = side == 1 ? right : up;  // counter-clockwise from outside
           const Eigen::Vector3i& second = side == 1 ? up : right;
           mesh.triangles.emplace_back(corner(low), corner(low + first), corner(low + right + up));
@@ -84,11 +83,11 @@ Figure make_room(const Parameters& identity) {
   const auto stand = [&](const Point& foot, const Point& half_size, double turn) {
     add_block({foot + Point(0, half_size.y() + gap, 0), half_size, turn}, mesh);
   };
-  stand({0.14 * width, 0, -0.22 * depth}, {330, 360, 230}, 12);        // a chest,
-  stand({0.14 * width, 722, -0.22 * depth}, {130, 90, 110}, 40);       // a box on it,
-  stand({-0.27 * width, 0, -0.1 * depth}, {210, 240, 210}, -25);       // a stool,
-  stand({0.37 * width, 0, -0.05 * depth}, {120, 700, 160}, -8);        // a shelf
-  stand({-0.02 * width, 0, 0.18 * depth}, {180, 90, 140}, 30);         // and a case
+  stand({0.14 * width, 0, -0.22 * depth}, {330, 360, 230}, 12);   // a chest,
+  stand({0.14 * width, 722, -0.22 * depth}, {130, 90, 110}, 40);  // a box on it,
+  stand({-0.27 * width, 0, -0.1 * depth}, {210, 240, 210}, -25);  // a stool,
+  stand({0.37 * width, 0, -0.05 * depth}, {120, 700, 160}, -8);   // a shelf
+  stand({-0.02 * width, 0, 0.18 * depth}, {180, 90, 140}, 30);    // and a case
   const std::size_t first = mesh.vertices.size();
   add_ball({-0.27 * width, 482 + 2 * gap + 150, -0.1 * depth}, 150, mesh);
   const std::size_t last = mesh.vertices.size();

@@ -107,8 +107,8 @@ TrajectoryError relative_error(const Trajectory& estimate, const Trajectory& tru
     ++squares.count;
   }
   if (squares.count == 0)
-    throw DataError(fmt::format("no pair of poses {} apart among the {} that belong to the truth's", step,
-                                pairs.size()));
+    throw DataError(
+        fmt::format("no pair of poses {} apart among the {} that belong to the truth's", step, pairs.size()));
   return rooted(squares);
 }
 

@@ -18,8 +18,8 @@ enum class TrajectoryAlignment {
 };
 
 /// How far an estimate is from the truth, pose by pose [absolute trajectory error; Sturm, Engelhard, Endres,
-/// Burgard, Cremers 2012]. Poses belong together whose times are nearest and at most `apart` seconds from each
-/// other. Throws DataError when none do.
+/// Burgard, Cremers 2012]. Poses belong together whose times are nearest and at most `apart` seconds from
+/// each other. Throws DataError when none do.
 TrajectoryError absolute_error(const Trajectory& estimate, const Trajectory& truth,
                                TrajectoryAlignment alignment, double apart = 0.01);
 

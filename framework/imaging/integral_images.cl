@@ -25,12 +25,12 @@ typedef int Ints;
 #endif
 
 #define SUM_STRIDE (TILE_COLUMNS + 2 * HALO)
-#define SUM_ROWS (TILE_ROWS + 2 * MAX_RADIUS + 1)
-#define PLANE (SUM_ROWS * SUM_STRIDE)
+#define ROW (5 * SUM_STRIDE)
 #define COUNT_BITS 9  // of the number of pixels that windows must not hold
 
-// The planes of the sums: inverse depth q; q times the column and q times the row within the tile; the square
-// of coarse inverse depth c; c and, in bits below it, how many pixels no window may hold.
+// A row of the sums holds five, one after the other: inverse depth q; q times the column and q times the row
+// within the tile; the square of coarse inverse depth c; c and, in bits below it, how many pixels no window
+// may hold.
 
 // Sums along the lanes, those of the vector before included.
 Ints running(Ints x, Ints before) {
@@ -80,9 +80,9 @@ Ints is_edge(global const float* pixel, int stride, Lanes z, Ints q, float depth
   return select((Ints)0, (Ints)1, ends);
 }
 
-// Adds a row of the image to the sums: the row of sums after `above`.
+// Adds row y of the image to the sums: from `above` to `sums`.
 void sum_row(global const float* depth, int stride, int columns, int y, float depth_change, int coarse_bits,
-             local int* above) {
+             local const int* above, local int* sums) {
   Ints q_before = 0, qu_before = 0, qv_before = 0, cc_before = 0, ce_before = 0;
   for (int x = 0; x < columns; x += WIDTH) {
     global const float* pixel = depth + x;
@@ -95,20 +95,24 @@ void sum_row(global const float* depth, int stride, int columns, int y, float de
     qv_before = running(q * y, qv_before);
     cc_before = running(coarse * coarse, cc_before);
     ce_before = running((coarse << COUNT_BITS) + edge, ce_before);
-    local int* sums = above + x;
-    STORE_INTS(LOAD_INTS(sums) + q_before, sums + SUM_STRIDE);
-    STORE_INTS(LOAD_INTS(sums + PLANE) + qu_before, sums + PLANE + SUM_STRIDE);
-    STORE_INTS(LOAD_INTS(sums + 2 * PLANE) + qv_before, sums + 2 * PLANE + SUM_STRIDE);
-    STORE_INTS(LOAD_INTS(sums + 3 * PLANE) + cc_before, sums + 3 * PLANE + SUM_STRIDE);
-    STORE_INTS(LOAD_INTS(sums + 4 * PLANE) + ce_before, sums + 4 * PLANE + SUM_STRIDE);
+    STORE_INTS(LOAD_INTS(above + x) + q_before, sums + x);
+    STORE_INTS(LOAD_INTS(above + x + SUM_STRIDE) + qu_before, sums + x + SUM_STRIDE);
+    STORE_INTS(LOAD_INTS(above + x + 2 * SUM_STRIDE) + qv_before, sums + x + 2 * SUM_STRIDE);
+    STORE_INTS(LOAD_INTS(above + x + 3 * SUM_STRIDE) + cc_before, sums + x + 3 * SUM_STRIDE);
+    STORE_INTS(LOAD_INTS(above + x + 4 * SUM_STRIDE) + ce_before, sums + x + 4 * SUM_STRIDE);
   }
 }
 
-// `corner`: above and left of the window.
-Ints over_window(local const int* corner, int side) {
-  const Ints top = LOAD_INTS(corner + side) - LOAD_INTS(corner);
-  local const int* bottom = corner + side * SUM_STRIDE;
-  return LOAD_INTS(bottom + side) - LOAD_INTS(bottom) - top;
+// The sums around a window: in the row above it and in its last row, one column before it.
+typedef struct {
+  local const int *top, *bottom;
+} Corners;
+
+// `which` of the five sums over a window.
+Ints over_window(Corners at, int side, int which) {
+  local const int* top = at.top + which * SUM_STRIDE;
+  local const int* bottom = at.bottom + which * SUM_STRIDE;
+  return (LOAD_INTS(bottom + side) - LOAD_INTS(bottom)) - (LOAD_INTS(top + side) - LOAD_INTS(top));
 }
 
 // How inverse depth runs over a window, relative to its mean: by column, by row, and what is left.
@@ -119,38 +123,41 @@ typedef struct {
 } Course;
 
 // The course over the window of radius r around the pixels from (x, y) of the tile on. ce: the sum over it.
-Course course_over(local const int* corner, Ints ce, int x, int y, int r, int coarse_bits) {
+Course course_over(Corners at, Ints ce, int x, int y, int r, int coarse_bits) {
   const int side = 2 * r + 1, pixels = side * side;
   const float spread = r * (r + 1) / 3.0f, share = 1.0f / pixels, per_square = share / spread;
   const float coarse_unit = 1 << coarse_bits;
-  const Ints q = over_window(corner, side);
+  const Ints q = over_window(at, side, 0);
   const Lanes mean = FLOATS(q) * share;
   const Lanes scale = 1.0f / fmax(mean, (Lanes)1);
   const Ints coarse = rounded(mean * (1.0f / coarse_unit));  // near all of the window's: so little is squared
   const Ints sum = (ce - ((pixels * coarse) << COUNT_BITS)) >> COUNT_BITS;
-  const Ints squares = over_window(corner + 3 * PLANE, side) - coarse * (2 * sum + pixels * coarse);
+  const Ints squares = over_window(at, side, 3) - coarse * (2 * sum + pixels * coarse);
   const Lanes first = FLOATS(sum);
   const Lanes coarse_scale = scale * coarse_unit;
   const float rounding = pixels / 12.0f;  // variance that whole steps add
   const Lanes variance =
       (FLOATS(squares) - first * first * share - rounding) * (coarse_scale * coarse_scale * per_square);
   Course course;
-  course.by_u = FLOATS(over_window(corner + PLANE, side) - q * (x + INT_OFFSETS)) * (scale * per_square);
-  course.by_v = FLOATS(over_window(corner + 2 * PLANE, side) - q * y) * (scale * per_square);
+  course.by_u = FLOATS(over_window(at, side, 1) - q * (x + INT_OFFSETS)) * (scale * per_square);
+  course.by_v = FLOATS(over_window(at, side, 2) - q * y) * (scale * per_square);
   course.left = fmax(variance - course.by_u * course.by_u - course.by_v * course.by_v, (Lanes)0);
   course.spread = spread;
   return course;
 }
 
-// The course over the largest window around each pixel that holds no edge.
-Course course_around(local const int* sums, int x, int y, int radius, int coarse_bits) {
+// The course over the largest window around each pixel that holds no edge. The sums are a ring of rows, the
+// last of which, in `last`, ends the windows of that radius.
+Course course_around(local const int* sums, int last, int x, int y, int radius, int coarse_bits) {
   Course course = {0, 0, 0, 0};
   for (int r = radius; r > 0; --r) {
-    local const int* corner = sums + (y - r) * SUM_STRIDE + x - r - 1;
-    const Ints ce = over_window(corner + 4 * PLANE, 2 * r + 1);
+    const int ring = 2 * radius + 2, bottom = last - (radius - r) + (last < radius - r ? ring : 0);
+    const int top = bottom + 1 + 2 * (radius - r) - (bottom + 1 + 2 * (radius - r) < ring ? 0 : ring);
+    const Corners at = {sums + top * ROW + x - r - 1, sums + bottom * ROW + x - r - 1};
+    const Ints ce = over_window(at, 2 * r + 1, 4);
     const Truth taken = (ce & ((1 << COUNT_BITS) - 1)) == 0 && course.spread == (Lanes)0;
     if (!ANY(taken)) continue;
-    const Course found = course_over(corner, ce, x, y, r, coarse_bits);
+    const Course found = course_over(at, ce, x, y, r, coarse_bits);
     course.by_u = select(course.by_u, found.by_u, taken);
     course.by_v = select(course.by_v, found.by_v, taken);
     course.left = select(course.left, found.left, taken);
@@ -185,9 +192,8 @@ Vector normal_of(Course course, Vector ray, float2 focal) {
 }
 
 kernel void integral_images(global const float* depth, int stride, int2 size, int2 corner, float4 camera,
-                            int radius, float depth_change, float most_coarse, global float* points,
-                            global float* normals) {
-  local int sums[5 * PLANE];
+                            int radius, float depth_change, float most_coarse, local int* sums,
+                            global float* points, global float* normals) {
   const int tiles = (size.x + TILE_COLUMNS - 1) / TILE_COLUMNS;
   const int top = get_global_id(0) / tiles * TILE_ROWS;
   const int left = (get_global_id(0) % tiles) * TILE_COLUMNS;
@@ -196,10 +202,13 @@ kernel void integral_images(global const float* depth, int stride, int2 size, in
   const int columns = min(SUM_STRIDE, stride - left);
   global const float* tile = depth + (top + HALO - radius) * stride + left;
   const int coarse_bits = spare_bits(tile, stride, columns, rows, most_coarse);
-  for (int i = 0; i < SUM_STRIDE; i += WIDTH)
-    for (int plane = 0; plane < 5; ++plane) STORE_INTS((Ints)0, sums + plane * PLANE + i);
+  for (int i = 0; i < ROW; i += WIDTH) STORE_INTS((Ints)0, sums + i);
+  int last = 0;
   for (int y = 0; y < rows; ++y) {
-    sum_row(tile + y * stride, stride, columns, y, depth_change, coarse_bits, sums + y * SUM_STRIDE);
+    const int next = last + 1 < 2 * radius + 2 ? last + 1 : 0;
+    sum_row(tile + y * stride, stride, columns, y, depth_change, coarse_bits, sums + last * ROW,
+            sums + next * ROW);
+    last = next;
     const int v = top + y - 2 * radius;
     if (v < top) continue;
     for (int u = left; u < min(left + TILE_COLUMNS, size.x); u += WIDTH) {
@@ -207,7 +216,7 @@ kernel void integral_images(global const float* depth, int stride, int2 size, in
       Vector point = {0, 0, 0}, normal = {0, 0, 0};
       if (ANY_DEPTH(z)) {
         const Vector ray = ray_through(u, v, corner, camera);
-        const Course course = course_around(sums, u - left + HALO, y - radius, radius, coarse_bits);
+        const Course course = course_around(sums, last, u - left + HALO, y - radius, radius, coarse_bits);
         normal = normal_of(course, ray, camera.xy);
         point = only(HAS_DEPTH(z), scaled(ray, z));
       }

@@ -11,7 +11,7 @@
 namespace pliant {
 namespace {
 
-constexpr int tile_rows = 32;
+constexpr int tile_rows = 48;
 constexpr double steps = 1 << 28;  // of inverse depth, that of 1 mm: 1/8000 mm at 200 mm, 1/30 mm at 3 m
 
 /// The most that inverse depth may come to where it is squared, so that squared differences over a window
@@ -82,16 +82,16 @@ IntegralImages::IntegralImages(int radius, double depth_change)
 void IntegralImages::write(Device& device, const DepthMap& map, SurfaceMap& surface) const {
   static const std::string source = with_plane(embedded::framework_imaging_integral_images_cl);
   const int columns = tile_columns(device);
-  const std::string options =
-      fmt::format("{} -DTILE_ROWS={} -DTILE_COLUMNS={} -DMAX_RADIUS={} -DNEAREST={:e}f -DSTEPS={:e}f",
-                  plane_options(), tile_rows, columns, max_radius, nearest_depth, steps);
+  const std::string options = fmt::format("{} -DTILE_ROWS={} -DTILE_COLUMNS={} -DNEAREST={:e}f -DSTEPS={:e}f",
+                                          plane_options(), tile_rows, columns, nearest_depth, steps);
   auto kernel = device.kernel(source, "integral_images", options);
+  const auto sums = static_cast<std::size_t>(5 * (2 * radius_ + 2) * (columns + 2 * DepthMap::halo));
   const PixelWindow& window = map.window;
   device.run("surface", kernel, tiles(window, columns), 1, map.depth.device(device),
              static_cast<cl_int>(map.stride), cl_int2{{window.width, window.height}},
              cl_int2{{window.left, window.top}}, pinhole(surface.camera), static_cast<cl_int>(radius_),
-             depth_change_, most_coarse(radius_, depth_change_), surface.map.points.write_device(device),
-             surface.map.normals.write_device(device));
+             depth_change_, most_coarse(radius_, depth_change_), cl::Local(sizeof(cl_int) * sums),
+             surface.map.points.write_device(device), surface.map.normals.write_device(device));
 }
 
 Image<Eigen::Vector3f> IntegralImages::reference(const DepthImage& depth, const Camera& camera) const {

@@ -10,8 +10,8 @@ namespace pliant {
 /// orientation as a unit quaternion x y z w, all in the frame that stays; ends with a line feed.
 std::string trajectory_line(const TimedPose& pose);
 
-/// Writes a trajectory so, a pose a line, behind a comment that names the columns. Throws DataError naming the
-/// file.
+/// Writes a trajectory so, a pose a line, behind a comment that names the columns. Throws DataError naming
+/// the file.
 void write_trajectory(const std::string& path, const Trajectory& trajectory);
 
 /// Reads such a file. Throws DataError naming the file, the line and what was expected where there is no

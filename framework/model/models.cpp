@@ -49,7 +49,7 @@ void register_models(Registry& registry) {
           choice("volume", {"scene", "fitted"}, "scene")
               .doc("scene: a cube before the first camera; fitted: what is around the first frame's points"),
           real("size", 3000).unit("mm").above(0).doc("Side of a scene's cube"),
-          real("distance", 500).unit("mm").range(0, 1e6).doc("From the first camera to a scene's cube"),
+          real("distance", 300).unit("mm").range(0, 1e6).doc("From the first camera to a scene's cube"),
           real("margin", 0.25)
               .range(0, 10)
               .doc("Around the first frame's points, in parts of the longest side of the box around them"),

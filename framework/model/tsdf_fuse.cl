@@ -84,17 +84,16 @@ Seen depth_at(Lanes u, Lanes v, Truth in_front, int4 window, int stride, float t
   const int2 end = window.xy + window.zw;
   const Truth in_window = in_front && column >= (Lanes)window.x && row >= (Lanes)window.y &&
                           column < (Lanes)end.x && row < (Lanes)end.y;
-  int at[WIDTH];
   const int first = (HALO - window.y) * stride + HALO - window.x;
-  STORE_INT(select((Truth)0, TO_INT(top) * stride + TO_INT(left) + first, in_window), at);
-  float d00[WIDTH], d10[WIDTH], d01[WIDTH], d11[WIDTH];
-  for (int lane = 0; lane < WIDTH; ++lane) d00[lane] = depth[at[lane]];
-  for (int lane = 0; lane < WIDTH; ++lane) d10[lane] = depth[at[lane] + 1];
-  for (int lane = 0; lane < WIDTH; ++lane) d01[lane] = depth[at[lane] + stride];
-  for (int lane = 0; lane < WIDTH; ++lane) d11[lane] = depth[at[lane] + stride + 1];
-  const Lanes nearest =
-      select(select(LOAD(d00), LOAD(d10), is_right), select(LOAD(d01), LOAD(d11), is_right), is_lower);
-#define NEAR(values) select(nearest, LOAD(values), fabs(LOAD(values) - nearest) < (Lanes)truncation)
+  const Truth at = select((Truth)0, TO_INT(top) * stride + TO_INT(left) + first, in_window);
+#define UPPER_LEFT(offset) depth[offset]
+#define UPPER_RIGHT(offset) depth[(offset) + 1]
+#define LOWER_LEFT(offset) depth[(offset) + stride]
+#define LOWER_RIGHT(offset) depth[(offset) + stride + 1]
+  const Lanes d00 = GATHER(Lanes, UPPER_LEFT, at), d10 = GATHER(Lanes, UPPER_RIGHT, at);
+  const Lanes d01 = GATHER(Lanes, LOWER_LEFT, at), d11 = GATHER(Lanes, LOWER_RIGHT, at);
+  const Lanes nearest = select(select(d00, d10, is_right), select(d01, d11, is_right), is_lower);
+#define NEAR(d) select(nearest, d, fabs(d - nearest) < (Lanes)truncation)
   const Lanes upper = fma(a, NEAR(d10) - NEAR(d00), NEAR(d00));
   const Lanes lower = fma(a, NEAR(d11) - NEAR(d01), NEAR(d01));
   const Seen seen = {fma(b, lower - upper, upper), in_window && nearest < (Lanes)NO_DEPTH};

@@ -45,10 +45,8 @@ typedef struct {
 
 // The distances at some voxels and at the next ones along x, in parts of the truncation.
 Pair gather_pair(Field field, Truth at) {
-  int index[WIDTH], both[WIDTH];
-  STORE_INT(at, index);
-  for (int lane = 0; lane < WIDTH; ++lane) both[lane] = as_int(vload2(0, field.distances + index[lane]));
-  const Truth values = LOAD_INT(both);
+#define TWO(offset) as_int(vload2(0, field.distances + (offset)))
+  const Truth values = GATHER(Truth, TWO, at);
   const Pair pair = {TO_LANES(values << 16 >> 16), TO_LANES(values >> 16)};
   return pair;
 }
@@ -63,15 +61,11 @@ Lanes nearest_distance(Field field, Vector p) {
   const Lanes x = p.x + 0.5f, y = p.y + 0.5f, z = p.z + 0.5f;
   const Truth in_grid = x >= (Lanes)0 && y >= (Lanes)0 && z >= (Lanes)0 && x < (Lanes)field.size.x &&
                         y < (Lanes)field.size.y && z < (Lanes)field.size.z;
-  int index[WIDTH];
-  short values[WIDTH];
-  STORE_INT(select((Truth)0, TO_INT(x) + field.size.x * TO_INT(y) + field.layer * TO_INT(z), in_grid), index);
-  for (int lane = 0; lane < WIDTH; ++lane) values[lane] = field.distances[index[lane]];
-#if WIDTH == 16
-  return WHERE(in_grid, convert_float16(vload16(0, values)));
-#else
-  return WHERE(in_grid, (float)values[0]);
-#endif
+  const Truth at = select((Truth)0, TO_INT(x) + field.size.x * TO_INT(y) + field.layer * TO_INT(z), in_grid);
+  // By twos: what is gathered has 32 bits.
+#define TWO_ALIGNED(offset) ((global const int*)field.distances)[offset]
+  const Truth both = GATHER(Truth, TWO_ALIGNED, at >> 1);
+  return WHERE(in_grid, TO_LANES(both << (16 - 16 * (at & 1)) >> 16));
 }
 
 typedef struct {

@@ -27,6 +27,10 @@ ParameterTable icp_table() {
           .unit("mm")
           .above(0)
           .doc("matches further apart are rejected"),
+      real("noise", options.noise)
+          .at_least(0)
+          .doc("matches may be further apart by so many standard deviations of a structured-light camera's "
+               "depth, which is more than 10 mm beyond 1.5 m; 0: they may not"),
       real("max_angle", options.max_angle / degree)
           .unit("degree")
           .range(0, 180)
@@ -73,6 +77,7 @@ ParameterTable icp_table() {
 ProjectiveIcpOptions read_icp(const Parameters& section) {
   ProjectiveIcpOptions options;
   options.max_distance = section.real("max_distance");
+  options.noise = section.real("noise");
   options.max_angle = section.real("max_angle") * degree;
   options.levels = static_cast<int>(section.integer("levels"));
   options.iterations = static_cast<int>(section.integer("iterations"));

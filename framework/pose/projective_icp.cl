@@ -95,12 +95,18 @@ static inline Vector minus_point(Vector v, const float* point) {
   return difference;
 }
 
+// Standard deviation of a structured-light camera's depths, mm [Nguyen, Izadi, Lovell 2012].
+static inline Lanes noise_at(Lanes depth) {
+  const Lanes beyond = 1e-3f * depth - 0.4f;
+  return 1.2f + 1.9f * beyond * beyond;
+}
+
 // The normal equations at the state, a run of samples a work-item. With the normal n turning along, the
 // distance n . (p - q) changes with a turn by ((q - pivot) x n): the lever ends at the match.
 kernel void accumulate(int level, int2 size, int step, global const float* source_points,
                        global const float* source_normals, float4 camera, int8 frame,
                        global const float* target_points, global const float* target_normals,
-                       float max_distance, float least_cosine, global const float* state,
+                       float max_distance, float noise, float least_cosine, global const float* state,
                        global float* partials) {
   const int columns = sampled(size.x, step), runs = (columns + RUN - 1) / RUN;
   const int row = get_global_id(0) / runs, begin = (get_global_id(0) - row * runs) * RUN;
@@ -117,18 +123,19 @@ kernel void accumulate(int level, int2 size, int step, global const float* sourc
     const Pixels at = sampled_pixels(row, first, columns, size.x, step);
     const int offset = row * size.x + first;
     const Vector p = sampled_vectors(at, first, columns, step, offset, source_points);
+    const Truth there = p.z > (Lanes)0;
+    if (!ANY(there)) continue;
     const Vector own = turned(R, sampled_vectors(at, first, columns, step, offset, source_normals));
     const Vector arm = turned(R, minus_point(p, from));
     const Vector moved = {arm.x + to[0], arm.y + to[1], arm.z + to[2]};
-    const Truth there = p.z > (Lanes)0;
     const Pixels pixels = select(NONE, project(moved, camera, frame), there);
     const Vector q = gather(pixels, target_points);
     const Vector n = gather(pixels, target_normals);
     const Vector away = minus(moved, q);
     const Truth lands = q.z > (Lanes)0;
-    const Truth matches = lands && inner(away, away) <= (Lanes)(max_distance * max_distance) &&
-                          inner(own, own) > (Lanes)0 && inner(n, n) > (Lanes)0 &&
-                          inner(own, n) >= (Lanes)least_cosine;
+    const Lanes farthest = fmax((Lanes)max_distance, noise * noise_at(q.z));
+    const Truth matches = lands && inner(away, away) <= farthest * farthest && inner(own, own) > (Lanes)0 &&
+                          inner(n, n) > (Lanes)0 && inner(own, n) >= (Lanes)least_cosine;
     add_matches(matches, minus_point(q, to), away, own, sums);
     sums[LANDED] += WHERE(lands, (Lanes)1);
     sums[SAMPLES] += WHERE(there, (Lanes)1);

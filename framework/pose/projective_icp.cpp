@@ -52,7 +52,8 @@ std::string complaint(const PoseEstimate& estimate, const ProjectiveIcpState& st
                       const Eigen::Isometry3d& start, const ProjectiveIcpOptions& options) {
   // Of distances up to a limit, all as likely as each other, it is 0.58 of the limit.
   constexpr double random_error = 0.5;
-  const double error_limit = random_error * options.max_distance;
+  const double depth = (state.pose * state.middle).z();
+  const double error_limit = random_error * levels_of(options, {}).back().farthest(depth);
   if (estimate.samples == 0) return "the model shows no point";
   if (estimate.landed < options.min_overlap * estimate.samples)
     return fmt::format("{} of the model's {} points meet a point of the frame, expected {:g} %",
@@ -63,7 +64,7 @@ std::string complaint(const PoseEstimate& estimate, const ProjectiveIcpState& st
   if (state.gave_up || !state.pose.matrix().allFinite())
     return fmt::format("{} matches do not tell a step", estimate.inliers);
   if (estimate.mean_error > error_limit)
-    return fmt::format("the matches are {:.2f} mm apart, expected {:g} mm at most", estimate.mean_error,
+    return fmt::format("the matches are {:.2f} mm apart, expected {:.1f} mm at most", estimate.mean_error,
                        error_limit);
   const Eigen::Isometry3d moved = state.pose * start.inverse();
   const double shift =
@@ -86,11 +87,17 @@ std::vector<ProjectiveIcpLevel> levels_of(const ProjectiveIcpOptions& options, c
   std::vector<ProjectiveIcpLevel> levels;
   for (int finer = options.levels - 1; finer >= 0; --finer) {
     const double share = options.levels > 1 ? static_cast<double>(finer) / (options.levels - 1) : 0;
-    levels.push_back({std::min(1 << finer, coarsest), options.max_distance * std::pow(reach, share),
+    const int step = std::min(1 << finer, coarsest);
+    levels.push_back({step, options.max_distance * std::pow(reach, share), options.noise,
                       share * options.coarse_angle + (1 - share) * options.max_angle,
-                      options.tolerance * std::pow(reach, share)});
+                      options.tolerance * std::pow(reach, share), options.damping * step * step});
   }
   return levels;
+}
+
+double ProjectiveIcpLevel::farthest(double depth) const {
+  const double beyond = depth / 1000 - 0.4;
+  return std::max(max_distance, noise * (1.2 + 1.9 * beyond * beyond));
 }
 
 ProjectiveIcp::ProjectiveIcp(Device& device, const ProjectiveIcpOptions& options)
@@ -116,12 +123,13 @@ void ProjectiveIcp::iterate(int number, const ProjectiveIcpLevel& level, const S
   device_->run("icp", accumulate, runs, 1, number, size_of(source), level.step,
                source.points().device(*device_), source.normals().device(*device_), pinhole(target.camera),
                frame_of(target), target.points().device(*device_), target.normals().device(*device_),
-               static_cast<cl_float>(level.max_distance), static_cast<cl_float>(std::cos(level.max_angle)),
-               state_.device(*device_), partials_.write_device(*device_));
+               static_cast<cl_float>(level.max_distance), static_cast<cl_float>(level.noise),
+               static_cast<cl_float>(std::cos(level.max_angle)), state_.device(*device_),
+               partials_.write_device(*device_));
   auto step = icp_kernel(*device_, "take_step");
   const auto items = static_cast<std::size_t>(device_->work_group_size());
   device_->run("icp", step, items, items, number, static_cast<cl_int>(runs), partials_.device(*device_),
-               static_cast<cl_float>(options_.damping), static_cast<cl_float>(level.tolerance),
+               static_cast<cl_float>(level.damping), static_cast<cl_float>(level.tolerance),
                state_.write_device(*device_));
 }
 

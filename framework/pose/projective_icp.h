@@ -12,7 +12,11 @@
 namespace pliant {
 
 struct ProjectiveIcpOptions {
-  double max_distance = 10;    ///< mm; matches further apart are rejected
+  double max_distance = 10;  ///< mm; matches further apart are rejected
+  /// A match may be further apart by so many standard deviations of a structured-light camera's depth, 1.2 +
+  /// 1.9 (z - 0.4)^2 mm with z in metres [Nguyen, Izadi, Lovell 2012]: beyond 1.5 m these are more than
+  /// 10 mm. 0: it may not.
+  double noise = 3;
   double max_angle = 0.34907;  ///< radians (20 degrees); matches whose normals differ by more are rejected
   /// From coarse to fine. The last one takes all points of the source, each before it half as many in u and
   /// v.
@@ -21,7 +25,8 @@ struct ProjectiveIcpOptions {
   double coarse_distance = 80;   ///< mm, of the coarsest level; those between by equal factors
   double coarse_angle = 1.0472;  ///< radians (60 degrees), likewise, by equal steps
   double tolerance = 0.05;       ///< mm at the extent of the source; a shorter step ends the last level
-  /// Pull to the start, as a share of the mean diagonal of J^T J with turns in mm at the source's extent.
+  /// Pull to the start in the last level, as a share of the mean diagonal of J^T J with turns in mm at the
+  /// source's extent.
   double damping = 1e-4;
   // A pose is a failure:
   double min_overlap = 0.1;  ///< where a smaller share of the source meets a point of the target
@@ -34,8 +39,12 @@ struct ProjectiveIcpOptions {
 struct ProjectiveIcpLevel {
   int step;  ///< pixels in u and v
   double max_distance;
+  double noise;
   double max_angle;
   double tolerance;  ///< mm
+  double damping;    ///< fewer points outweigh less of the pull to the start
+  /// How far from a point of the target at this depth (mm) its match may be.
+  double farthest(double depth) const;
 };
 std::vector<ProjectiveIcpLevel> levels_of(const ProjectiveIcpOptions& options, const PixelWindow& window);
 

@@ -95,7 +95,7 @@ RigidEquations projective_equations_reference(const SurfaceMap& source, const Su
     const Eigen::Vector3d own = pose.linear() * finite_or_none(source.normals(), pixel).cast<double>();
     const Eigen::Vector3d other = finite_or_none(target, target.normals(), *landed).cast<double>();
     const Eigen::Vector3d offset = moved - q;
-    if (own.isZero(0) || other.isZero(0) || offset.norm() > level.max_distance ||
+    if (own.isZero(0) || other.isZero(0) || offset.norm() > level.farthest(q.z()) ||
         own.dot(other) < std::cos(level.max_angle))
       continue;
     ++equations.matches;
@@ -121,7 +121,7 @@ PoseEstimate projective_icp_reference(const SurfaceMap& source, const SurfaceMap
     for (int i = 0; i < options.iterations && !done; ++i) {
       state.last =
           projective_equations_reference(source, target, state.pose, state.pose * extent.middle, level);
-      done = take_step(extent, options.damping, level.tolerance, state);
+      done = take_step(extent, level.damping, level.tolerance, state);
     }
   }
   return judged({state.pose, state.last, extent.middle, extent.size, state.iterations, state.gave_up}, start,

@@ -28,7 +28,7 @@ FrameRecord Tracker::track(const Frame& frame) {
   FrameRecord record;
   record.number = ++count_;
   record.time = frame.time;
-  check(frame, rig_, fmt::format("frame {}", record.number));
+  check(frame, rig_, fmt::format("frame {}: the", record.number));
   device_.take_stage_times();  // of whatever came before
   if (has_model() || find_object(frame, record)) {
     const Stopwatch upload;

@@ -21,8 +21,9 @@ Trajectory loop(int count = 40) {
   Trajectory trajectory;
   for (int i = 0; i < count; ++i) {
     const double way = 2 * std::numbers::pi * i / count;
-    trajectory.push_back({i / 30.0, pose_of({300 * std::cos(way), 200 * std::sin(way), 50 * std::sin(2 * way)},
-                                            40 * std::sin(way), {1, 2, std::cos(way)})});
+    trajectory.push_back(
+        {i / 30.0, pose_of({300 * std::cos(way), 200 * std::sin(way), 50 * std::sin(2 * way)},
+                           40 * std::sin(way), {1, 2, std::cos(way)})});
   }
   return trajectory;
 }

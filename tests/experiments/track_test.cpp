@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 using ::testing::HasSubstr;
 
 const std::string tracked_head =
-    "model: {type: tsdf, resolution: 64}\n"
+    "model: {type: tsdf, volume: fitted, resolution: 64}\n"
     "data:\n"
     "  type: head\n"
     "  frames: 6\n"
@@ -132,7 +132,7 @@ TEST_F(TrackTest, WhatBreaksAStreamLeavesTheFramesBefore) {
   write("frames/depth/000002.png", "torn");
   write("K.txt", "131.25 0 79.5\n0 131.25 59.5\n0 0 1\n");
   const ExperimentPlan plan = this->plan(
-      "model: {type: tsdf, resolution: 64}\ndata: {type: folder, folder: frames, intrinsics: K.txt}\n");
+      "model: {type: tsdf, volume: fitted, resolution: 64}\ndata: {type: folder, folder: frames, intrinsics: K.txt}\n");
   result_ = run_experiment(*make_task(plan.experiment.values), plan, file("out"), workbench_);
   const auto run = ordered_json::parse(text_of("out/result.json"))["runs"][0];
   EXPECT_EQ(run["frames"], 2);

@@ -27,14 +27,14 @@ TEST_F(TrajectoryFile, ReadsWhatWasWritten) {
 }
 
 TEST_F(TrajectoryFile, CountsInMetresAndPutsTheRealPartLast) {
-  const Eigen::Isometry3d pose =
-      Eigen::Translation3d(1000, 0, -250) * Eigen::Quaterniond(0.8, 0.6, 0, 0);
+  const Eigen::Isometry3d pose = Eigen::Translation3d(1000, 0, -250) * Eigen::Quaterniond(0.8, 0.6, 0, 0);
   EXPECT_EQ(trajectory_line({1.5, pose}),
             "1.500000 1.0000000 0.0000000 -0.2500000 0.60000000 0.00000000 0.00000000 0.80000000\n");
 }
 
 TEST_F(TrajectoryFile, IsReadWithCommentsAndRoundedNumbers) {
-  const auto read = read_trajectory(write("a.txt", std::string("# time tx ty\n\n1.5 1 0 0 0 0 0.7071 0.7071\n")));
+  const auto read =
+      read_trajectory(write("a.txt", std::string("# time tx ty\n\n1.5 1 0 0 0 0 0.7071 0.7071\n")));
   ASSERT_EQ(read.size(), 1U);
   EXPECT_NEAR((read[0].pose.linear() * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 0, 1e-6);
 }

@@ -34,11 +34,15 @@ class OpenNiRecording : public testing::ScriptedFiles {
   static void expect_last_images(const std::vector<Frame>& frames, bool with_color) {
     ASSERT_GE(frames.size(), static_cast<std::size_t>(count) / 2);
     const int first = count + 1 - static_cast<int>(frames.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      EXPECT_EQ(frames[i].depth.pixels(), depth(first + static_cast<int>(i)).pixels());
-      EXPECT_EQ(frames[i].color.pixels(),
-                (with_color ? color(first + static_cast<int>(i)) : ColorImage()).pixels());
-      EXPECT_NEAR(frames[i].time, static_cast<double>(i) * 0.033333, 1e-9);
+    // The recorder may have missed the first depth and not the colour after it; it counts the times of both
+    // from 0.
+    const bool is_apart = with_color && frames[0].color.pixels() != color(first).pixels();
+    for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
+      const Frame& frame = frames[static_cast<std::size_t>(i)];
+      EXPECT_EQ(frame.depth.pixels(), depth(first + i).pixels());
+      const ColorImage expected = with_color ? color(first + i - (is_apart ? 1 : 0)) : ColorImage();
+      EXPECT_EQ(frame.color.pixels(), expected.pixels());
+      EXPECT_NEAR(frame.time, i * 0.033333, 1e-9);
     }
   }
 };
@@ -102,8 +106,9 @@ TEST_F(OpenNiRecording, ThatDoesNotTellItsRegistrationIsTakenForNone) {
 TEST_F(OpenNiRecording, OfAMirroredCameraIsTurnedRound) {
   recorded(depth_sensor() + "mirrored\n");
   const auto frames = read("frames: 1");
-  const auto straight = depth(frames.front().depth(width - 1, 3) == depth(1)(0, 3) ? 1 : 2);
-  EXPECT_EQ(frames.front().depth(4, 9), straight(width - 1 - 4, 9));
+  int number = 1;  // of the first that the recorder did not miss
+  while (number < count && frames.front().depth(width - 1, 3) != depth(number)(0, 3)) ++number;
+  EXPECT_EQ(frames.front().depth(4, 9), depth(number)(width - 1 - 4, 9));
 }
 
 TEST_F(OpenNiRecording, ThatIsNoneIsAnError) {

@@ -1,6 +1,7 @@
 #include "tests/openni/scripted_files.h"
 
 #include <OpenNI.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -45,6 +46,11 @@ void play_into_recorder(const std::string& path, int images) {
 }
 
 }  // namespace
+
+ScriptedFiles::ScriptedFiles() {
+  // What the leak checker finds in a library that has been unloaded has no name (see lsan.supp).
+  ::dlopen(WITH_DRIVER "/OpenNI2/Drivers/libOniFile.so.0", RTLD_NOW | RTLD_NODELETE);
+}
 
 DepthImage ScriptedFiles::depth(int i) {
   DepthImage image(width, height);

@@ -12,6 +12,8 @@ namespace pliant::testing {
 /// in every pixel that is not a hole.
 class ScriptedFiles : public ProgramTest {
  protected:
+  ScriptedFiles();
+
   static constexpr int width = 40;
   static constexpr int height = 30;
 

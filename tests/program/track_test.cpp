@@ -27,7 +27,7 @@ class TrackProgramTest : public ProgramTest {
           "data: {type: head, image_width: 160, image_height: 120, focal_length: 131.25, frames: " +
               std::to_string(frames) +
               ", motion: {rotation_y: 10}}\n"
-              "model: {type: tsdf, resolution: 64}\n");
+              "model: {type: tsdf, volume: fitted, resolution: 64}\n");
   }
 
   /// Starts tracking, waits until so many frames have been told, sends a signal; gives the exit status.

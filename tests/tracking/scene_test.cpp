@@ -99,7 +99,7 @@ TEST(Scene, FiltersWhatIsRegisteredAndKeepsWhatWasGiven) {
   FramePair pair = made_pair();
   const BilateralFilter filter(4.5, 30, 6);
   const Scene scene =
-      make_scene(pair, method_with(std::make_unique<BilateralFilter>(filter)), device, 1, times);
+      make_scene(pair, method_with(std::make_unique<BilateralFilter>(4.5, 30, 6)), device, 1, times);
   const ScenePoints points = read_points(scene);
   const Surface given = make_surface(make_surface_image(pair.source, kCamera), {});
   pair.source.depth = filter.filter_reference(pair.source.depth);
