@@ -88,7 +88,7 @@ class ShowTest : public ProgramTest {
     write("head.yaml",
           "data: {type: head, image_width: 160, image_height: 120, focal_length: 131.25, frames: 100000, "
           "texture: skin, motion: {rotation_y: 10}}\n"
-          "model: {type: tsdf, resolution: 64}\n");
+          "model: {type: tsdf, volume: fitted, resolution: 64}\n");
   }
 
   /// A screen as large as the picture of a frame with some margin.
