@@ -140,6 +140,15 @@ TEST(ProjectiveIcp, StaysWhereItIsRight) {
   EXPECT_EQ(estimate.inliers, estimate.landed);
 }
 
+/// Few enough for a simulator of devices.
+TEST(ProjectiveIcp, FindsMotionsOfAFewPixels) {
+  const Camera small{65, 65, 19.5, 14.5, 40, 30};
+  const Eigen::Isometry3d motion = motion_of(2, -3, 0, {5, 0, 4});
+  const PoseEstimate estimate = track(seen(still, small), seen(motion, small), {}, small);
+  EXPECT_FALSE(estimate.failed) << estimate.reason;
+  EXPECT_LT(difference(estimate.target_from_source, motion), 2);
+}
+
 TEST(ProjectiveIcp, SameBits) {
   const Frame source = seen(still);
   const Frame target = seen(motion_of(2, -3, 0, {5, 0, 0}));
