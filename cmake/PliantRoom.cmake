@@ -1,5 +1,6 @@
 include(GNUInstallDirs)
 include(PliantEmbed)
+include(PliantPrecompiled)
 
 # pliant_room(NAME SOURCES file... [LINK target...] [PRIVATE_LINK target...])
 # One library per room of the house, called pliant_NAME, exported as Pliant::NAME.

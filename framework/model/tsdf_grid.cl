@@ -5,10 +5,10 @@
 // float16: three rows of x, y, z and what is added. `camera`: fx, fy, cx, cy. `window`: left, top, width and
 // height, in pixels.
 
-// Values at some offsets, one a lane. Written out, because drivers for CPUs then gather them at once, from and
-// into registers, which they do not where a loop does it.
+// Values at some offsets, one a lane. Written out, because drivers for CPUs then gather them at once, from
+// and into registers, which they do not where a loop does it.
 #if WIDTH == 16
-#define GATHER(type, value, at)                                                                          \
+#define GATHER(type, value, at)                                                                           \
   ((type)(value((at).s0), value((at).s1), value((at).s2), value((at).s3), value((at).s4), value((at).s5), \
           value((at).s6), value((at).s7), value((at).s8), value((at).s9), value((at).sa), value((at).sb), \
           value((at).sc), value((at).sd), value((at).se), value((at).sf)))

@@ -21,8 +21,8 @@ kernel void bound_rays(int4 bricks, global const int* contents, float16 placing,
   for (int row = tiles.y; row <= tiles.w; ++row) {
     for (int column = tiles.x; column <= tiles.z; ++column) {
       const int tile = row * tiles_over(area).x + column;
-      if (ranges[2 * tile] > near) atomic_min(ranges + 2 * tile, near);
-      if (ranges[2 * tile + 1] < far) atomic_max(ranges + 2 * tile + 1, far);
+      atomic_min(ranges + 2 * tile, near);
+      atomic_max(ranges + 2 * tile + 1, far);
     }
   }
 }

@@ -14,7 +14,7 @@ TEST_F(TrackingModeTest, TimesEveryStageBesideOpenCv) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto lists = nlohmann::json::parse(text_of("rows.json"));
   ASSERT_EQ(lists.size(), 2U);
-  const std::vector<std::string> stages{"bilateral", "normals", "frame"};
+  const std::vector<std::string> stages{"bilateral", "normals", "icp", "integrate", "raycast", "frame"};
   for (const char* name : {"full", "object"}) {
     const auto& rows = lists.at(name);
     ASSERT_EQ(rows.size(), stages.size()) << name;

@@ -19,10 +19,10 @@ using ::testing::HasSubstr;
 
 const std::string tracked_head =
     "model: {type: tsdf, volume: fitted, resolution: 64}\n"
+    "acquisition: {filter: none}\n"
     "data:\n"
     "  type: head\n"
-    "  frames: 6\n"
-    "  keys: {a: {at: 0}, b: {at: 0.2, camera: {look_from: [20, 0, 0]}}}\n";
+      "  keys: {a: {at: 0}, b: {at: 0.2, camera: {look_from: [20, 0, 0]}}}\n";
 
 class TrackTest : public ExperimentFiles {
  protected:
@@ -38,19 +38,19 @@ class TrackTest : public ExperimentFiles {
 
 TEST_F(TrackTest, TellsOfEveryFrameAndWritesModelAndTrajectory) {
   const ordered_json run = track(tracked_head);
-  EXPECT_EQ(run["frames"], 6);
-  EXPECT_EQ(run["tracked"], 5);
+  EXPECT_EQ(run["frames"], 7);
+  EXPECT_EQ(run["tracked"], 6);
   EXPECT_EQ(run["lost"], 0);
   EXPECT_LT(run["truth"]["ate_translation"], 2);
   const auto lines = read_json_lines(file("out/frames.jsonl"));
-  ASSERT_EQ(lines.size(), 6U);
+  ASSERT_EQ(lines.size(), 7U);
   EXPECT_EQ(lines[0]["state"], "started");
-  EXPECT_EQ(lines[5]["frame"], 6);
-  EXPECT_TRUE(lines[5].contains("error"));
-  EXPECT_EQ(read_whole_lines(file("out/frames.csv")).size(), 7U);
+  EXPECT_EQ(lines[6]["frame"], 7);
+  EXPECT_TRUE(lines[6].contains("error"));
+  EXPECT_EQ(read_whole_lines(file("out/frames.csv")).size(), 8U);
   const auto trajectory = read_trajectory(file("out/trajectory.txt"));
-  ASSERT_EQ(trajectory.size(), 6U);
-  EXPECT_NEAR(trajectory[5].pose.translation().x(), 20, 2) << "mm, where the camera is";
+  ASSERT_EQ(trajectory.size(), 7U);
+  EXPECT_NEAR(trajectory[6].pose.translation().x(), 20, 2) << "mm, where the camera is";
   EXPECT_GT(read_surface_mesh(file("out/model.ply"), 1).vertices.size(), 500U);
   EXPECT_TRUE(fs::exists(file("out/model.glb")));
   EXPECT_THAT(text_of("out/index.html"), HasSubstr("Error of rigid tracking"));
@@ -113,12 +113,12 @@ TEST_F(TrackTest, LeavesStripViewAndFilm) {
   track(tracked_head + "record: {video: true, every: 2}\nreports: {pictures: {}, page: {}, view: {}}\n");
   EXPECT_GT(fs::file_size(file("out/strip.png")), 2000U);
   const auto view = ordered_json::parse(text_of("out/view.json"));
-  EXPECT_EQ(view["steps"].size(), 6U);
-  EXPECT_EQ(view["steps"][5]["number"], 6);
+  EXPECT_EQ(view["steps"].size(), 7U);
+  EXPECT_EQ(view["steps"][6]["number"], 7);
   EXPECT_GT(view["target"]["triangles"].get<std::string>().size(), 1000U) << "the model";
   EXPECT_THAT(text_of("out/index.html"), HasSubstr("class=\"view-figure\""));
   const std::string film = text_of("out/video.avi");
-  EXPECT_EQ(film[48], 3) << "pictures, of frames 1, 3 and 5";
+  EXPECT_EQ(film[48], 4) << "pictures, of frames 1, 3, 5 and 7";
 }
 
 TEST_F(TrackTest, WhatBreaksAStreamLeavesTheFramesBefore) {
@@ -143,7 +143,7 @@ TEST_F(TrackTest, WhatBreaksAStreamLeavesTheFramesBefore) {
 TEST_F(TrackTest, ChecksTheFirstFrame) {
   const ExperimentPlan good = plan(tracked_head);
   EXPECT_TRUE(check_experiment(good, workbench_).empty());
-  const ExperimentPlan bad = plan("model: tsdf\ndata: {type: folder, folder: nothing, intrinsics: K.txt}\n");
+  const ExperimentPlan bad = plan("model: tsdf\ndata: {type: folder, folder: ., fx: 100, fy: 100, cx: 80, cy: 60}\n");
   EXPECT_THROW(check_experiment(bad, workbench_), Error);
 }
 

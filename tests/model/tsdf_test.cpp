@@ -117,6 +117,21 @@ TEST(Tsdf, HasRoomForTheFinestGridInAGibibyte) {
   EXPECT_LT(device.counts().allocated_bytes, std::uint64_t{1} << 29);
 }
 
+// The simulator runs this one.
+TEST(Tsdf, SeesWithFewPixelsAndVoxels) {
+  const Camera camera{20, 20, 9.5, 7.5, 19, 15};
+  const TsdfGrid grid{{32, 32, 32}, {-155, -155, 490}, 10, 40};
+  Device device;
+  Tsdf tsdf(device, grid, 64);
+  for (const double degrees : {0.0, 20.0}) {
+    const Eigen::Isometry3d pose = kBall.from_around(degrees, {0, 1, 0});
+    tsdf.integrate(DepthMap(kBall.frame(camera, pose)), camera, pose);
+    const auto points = unflatten(tsdf.raycast(camera, {3, 2, 15, 13}, pose).points());
+    EXPECT_GT(std::count_if(points.begin(), points.end(), [](const auto& point) { return point.z() > 0; }),
+              15);
+  }
+}
+
 TEST(Tsdf, SaysWhatTheDeviceHasNoRoomFor) {
   Device device;
   const int side = 1 << 13;  // a terabyte

@@ -17,7 +17,7 @@ after(() => browser?.close());
 test("nothing is cut off, on any screen", () => checkLayout(page, "frames"));
 
 test("frame, path and camera are drawn, and each layer can be switched", async () => {
-  assert.ok(await colorsOf(canvas) > 100);
+  await eventually(async () => (await colorsOf(canvas)) > 100, "few colours are drawn");
   const boxes = page.locator(".view-layers input");
   const values = (all) => all.filter((box) => box.checked).map((box) => box.value);
   assert.deepEqual(await boxes.evaluateAll(values), ["registered", "path", "camera"]);
