@@ -95,9 +95,9 @@ export async function pixelsOf(canvas) {
   });
 }
 
-/** Asks every tenth of a second, five seconds long, until it holds. */
+/** Asks every tenth of a second, twenty seconds long, until it holds: without a graphics card drawing takes a while. */
 export async function eventually(holds, complaint) {
-  for (let i = 0; i < 50; ++i) {
+  for (let i = 0; i < 200; ++i) {
     if (await holds()) return;
     await new Promise((then) => setTimeout(then, 100));
   }

@@ -17,13 +17,14 @@ after(() => browser?.close());
 test("nothing is cut off, on any screen", () => checkLayout(page, "frames"));
 
 test("frame, path and camera are drawn, and each layer can be switched", async () => {
-  await eventually(async () => (await colorsOf(canvas)) > 100, "few colours are drawn");
+  assert.ok(await colorsOf(canvas) > 40);
   const boxes = page.locator(".view-layers input");
   const values = (all) => all.filter((box) => box.checked).map((box) => box.value);
   assert.deepEqual(await boxes.evaluateAll(values), ["registered", "path", "camera"]);
   assert.equal(await boxes.count(), 4);
   for (const box of await boxes.all()) await changes(canvas, () => box.click(), await box.inputValue());
-  for (const box of await boxes.all()) await changes(canvas, () => box.click(), await box.inputValue());
+  // Back in the other order: the model may hide the frame.
+  for (const box of (await boxes.all()).reverse()) await changes(canvas, () => box.click(), await box.inputValue());
 });
 
 test("the slider goes through the frames, and play does", async () => {
