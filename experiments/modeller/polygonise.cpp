@@ -70,7 +70,7 @@ class Samples {
   }
 
   Mesh surface() const {
-    Mesh mesh = marching_cubes({size_, origin_, spacing_, values_});
+    Mesh mesh = marching_cubes({{size_, origin_, spacing_}, values_});
     for (Eigen::Vector3f& vertex : mesh.vertices)
       vertex = lens_.point_of(vertex.cast<double>()).cast<float>();
     return mesh;

@@ -8,6 +8,7 @@
 #include "experiments/tasks/track_log.h"
 #include "experiments/tasks/track_pictures.h"
 #include "experiments/tasks/track_truth.h"
+#include "framework/geometry/prefetched_stream.h"
 #include "framework/io/mesh_writer.h"
 #include "framework/tracking/tracker.h"
 
@@ -48,7 +49,9 @@ class TrackTask : public Task {
       TrackSummary summary;
       TrackTruth truth(*stream);
       TrackPictures pictures(run, making, stream->rig(), workbench.device(run.values));
+      workbench.device(run.values).measure_stages(true);
       TrackEnd end = track_all(*stream, tracker, making, truth, pictures, summary);
+      workbench.device(run.values).measure_stages(false);
       std::vector<std::filesystem::path> files;
       for (const auto& name : TrackLog::files()) files.push_back(making.folder / name);
       Mesh model;
@@ -71,7 +74,8 @@ class TrackTask : public Task {
   /// Until the stream ends, breaks after its first frame, or is to be ended.
   static TrackEnd track_all(DataStream& stream, Tracker& tracker, const Making& making, TrackTruth& truth,
                             TrackPictures& pictures, TrackSummary& summary) {
-    CheckedStream frames(stream);
+    PrefetchedStream ahead(stream);
+    CheckedStream frames(ahead);
     std::optional<TrackLog> log;
     try {
       while (!making.is_ended()) {
@@ -88,9 +92,9 @@ class TrackTask : public Task {
       }
     } catch (const DataError& error) {
       if (summary.frames.empty()) throw;
-      return {stream.warnings(), error.what()};
+      return {ahead.warnings(), error.what()};
     }
-    return {stream.warnings()};
+    return {ahead.warnings()};
   }
 
   static void write_model(const Mesh& mesh, const std::filesystem::path& folder,

@@ -130,15 +130,18 @@ const Cases& cases() {
 
 class Marcher {
  public:
-  explicit Marcher(const DistanceGrid& grid)
-      : grid_(grid), nx_(grid.size.x()), ny_(grid.size.y()), edge_vertex_(6 * layer_size(), -1) {
-    for (int corner = 0; corner < corners; ++corner)
-      offsets_[static_cast<std::size_t>(corner)] = index(corner & 1, (corner >> 1) & 1, corner >> 2);
-  }
+  Marcher(const SampleGrid& grid, const DistanceLayers& layers)
+      : grid_(grid),
+        layers_(layers),
+        nx_(grid.size.x()),
+        ny_(grid.size.y()),
+        values_(2 * layer_size()),
+        edge_vertex_(6 * layer_size(), -1) {}
 
   Mesh march() {
+    take_layer(0);
     for (int k = 0; k + 1 < grid_.size.z(); ++k) {
-      forget_layer(k + 1);
+      take_layer(k + 1);
       for (int j = 0; j + 1 < ny_; ++j) {
         for (int i = 0; i + 1 < nx_; ++i) march_cell({i, j, k});
       }
@@ -148,25 +151,32 @@ class Marcher {
 
  private:
   std::size_t layer_size() const { return static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_); }
+  /// Of a sample among those of two layers.
   std::size_t index(int i, int j, int k) const {
     return static_cast<std::size_t>(i) + static_cast<std::size_t>(nx_) * static_cast<std::size_t>(j) +
-           layer_size() * static_cast<std::size_t>(k);
+           layer_size() * static_cast<std::size_t>(k % 2);
   }
 
-  /// Vertices of edges are kept for two layers of samples.
-  void forget_layer(int k) {
-    const auto begin = edge_vertex_.begin() + static_cast<std::ptrdiff_t>(3 * layer_size()) * (k % 2);
+  /// Takes a layer of samples in the place of the last but one, and forgets the vertices of its edges.
+  void take_layer(int k) {
+    layers_(k, std::span(values_).subspan(index(0, 0, k), layer_size()));
+    const auto begin = edge_vertex_.begin() + static_cast<std::ptrdiff_t>(3 * index(0, 0, k));
     std::fill(begin, begin + static_cast<std::ptrdiff_t>(3 * layer_size()), -1);
   }
 
   void march_cell(const Eigen::Vector3i& cell) {
-    const float* first = &grid_.values[index(cell.x(), cell.y(), cell.z())];
+    const std::size_t near = index(cell.x(), cell.y(), cell.z());
+    const std::size_t far = index(cell.x(), cell.y(), cell.z() + 1);
+    const auto row = static_cast<std::size_t>(nx_);
+    const std::array<float, corners> values{
+        values_[near], values_[near + 1], values_[near + row], values_[near + row + 1],
+        values_[far],  values_[far + 1],  values_[far + row],  values_[far + row + 1]};
     int inside = 0;
-    for (std::size_t c = 0; c < corners; ++c) inside |= static_cast<int>(first[offsets_[c]] < 0) << c;
+    for (std::size_t c = 0; c < corners; ++c) inside |= static_cast<int>(values[c] < 0) << c;
     const auto& triangles = cases()[static_cast<std::size_t>(inside)];
     if (triangles.empty()) return;
-    for (const std::size_t offset : offsets_) {
-      if (!std::isfinite(first[offset])) return;
+    for (const float value : values) {
+      if (!std::isfinite(value)) return;
     }
     for (const Eigen::Vector3i& triangle : triangles) {
       mesh_.triangles.emplace_back(vertex(cell, triangle[0]), vertex(cell, triangle[1]),
@@ -178,8 +188,7 @@ class Marcher {
     const int corner = start_of(edge);
     const int axis = edge / 4;
     const Eigen::Vector3i start = cell + Eigen::Vector3i(corner & 1, (corner >> 1) & 1, corner >> 2);
-    int& known =
-        edge_vertex_[3 * index(start.x(), start.y(), start.z() % 2) + static_cast<std::size_t>(axis)];
+    int& known = edge_vertex_[3 * index(start.x(), start.y(), start.z()) + static_cast<std::size_t>(axis)];
     if (known < 0) {
       known = static_cast<int>(mesh_.vertices.size());
       mesh_.vertices.push_back(crossing(start, axis));
@@ -192,17 +201,18 @@ class Marcher {
   Eigen::Vector3f crossing(const Eigen::Vector3i& start, int axis) const {
     constexpr double margin = 0.01;
     const Eigen::Vector3i end = start + Eigen::Vector3i::Unit(axis);
-    const double from = grid_.values[index(start.x(), start.y(), start.z())];
-    const double to = grid_.values[index(end.x(), end.y(), end.z())];
+    const double from = values_[index(start.x(), start.y(), start.z())];
+    const double to = values_[index(end.x(), end.y(), end.z())];
     Eigen::Vector3d place = start.cast<double>();
     place[axis] += std::clamp(from / (from - to), margin, 1 - margin);
     return (grid_.origin + grid_.spacing * place).cast<float>();
   }
 
-  const DistanceGrid& grid_;
+  const SampleGrid& grid_;
+  const DistanceLayers& layers_;
   int nx_;
   int ny_;
-  std::array<std::size_t, corners> offsets_ = {};
+  std::vector<float> values_;     // of two layers
   std::vector<int> edge_vertex_;  // of the three edges that start at each sample of two layers; -1: none yet
   Mesh mesh_;
 };
@@ -213,7 +223,16 @@ Mesh marching_cubes(const DistanceGrid& grid) {
   const Eigen::Matrix<std::size_t, 3, 1> size = grid.size.cwiseMax(0).cast<std::size_t>();
   if (grid.values.size() != size.prod()) throw std::invalid_argument("a grid takes one distance per sample");
   if (grid.values.empty()) return {};
-  return Marcher(grid).march();
+  const auto layer_size = size.x() * size.y();
+  return marching_cubes(grid, [&](int k, std::span<float> values) {
+    std::copy_n(grid.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(k) * layer_size),
+                layer_size, values.begin());
+  });
+}
+
+Mesh marching_cubes(const SampleGrid& grid, const DistanceLayers& layers) {
+  if (grid.size.minCoeff() < 1) return {};
+  return Marcher(grid, layers).march();
 }
 
 }  // namespace pliant

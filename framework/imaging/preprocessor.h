@@ -14,6 +14,9 @@ struct Acquisition {
   double depth_cut = 0;  ///< mm: what lies behind it is background; 0: nothing is cut
   std::unique_ptr<DepthFilter> filter;
   std::unique_ptr<Normals> normals;
+  /// Points are those of the filtered depth, as the thesis has them, and not of the depth as it was measured.
+  /// A filter flattens what bends, in every frame a little to the same side, and poses drift.
+  bool filters_points = false;
 
   /// The farthest depth that is not cut, mm.
   float farthest() const;
@@ -42,7 +45,7 @@ class Preprocessor {
 
   /// What the last frame showed: cut, inside its mask, not filtered.
   const DepthMap& depth() const { return depth_; }
-  /// The surface of its filtered depth, camera frame.
+  /// Its surface, camera frame: see Acquisition.
   const SurfaceMap& surface() const { return surface_; }
 
  private:

@@ -1,5 +1,6 @@
 #include "framework/model/tsdf.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -130,12 +131,13 @@ TsdfVoxels Tsdf::read() const {
 Mesh Tsdf::mesh() const {
   std::vector<std::int16_t> distances(grid_.voxels());
   device_.read(distances_, distances.data(), sizeof(cl_short) * grid_.voxels());
-  std::vector<float> values(grid_.voxels());
   const float step = static_cast<float>(grid_.truncation / TsdfGrid::steps);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] =
-        distances[i] == 0 ? std::numeric_limits<float>::quiet_NaN() : step * static_cast<float>(distances[i]);
-  return marching_cubes({grid_.size, grid_.origin, grid_.voxel, values});
+  return marching_cubes({grid_.size, grid_.origin, grid_.voxel}, [&](int k, std::span<float> values) {
+    const std::int16_t* layer = distances.data() + static_cast<std::size_t>(k) * values.size();
+    std::transform(layer, layer + values.size(), values.begin(), [&](std::int16_t distance) {
+      return distance == 0 ? std::numeric_limits<float>::quiet_NaN() : step * static_cast<float>(distance);
+    });
+  });
 }
 
 }  // namespace pliant

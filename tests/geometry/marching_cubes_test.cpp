@@ -23,7 +23,7 @@ struct SampledGrid {
   Eigen::Vector3i size;
   Eigen::Vector3d origin;
   double spacing;
-  DistanceGrid view() const { return {size, origin, spacing, values}; }
+  DistanceGrid view() const { return {{size, origin, spacing}, values}; }
 };
 
 SampledGrid sampled(const Eigen::Vector3i& size, const Eigen::Vector3d& origin, double spacing,

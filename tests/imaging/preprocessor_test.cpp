@@ -37,10 +37,11 @@ TEST(Preprocessor, DropsWhatIsFarOrMaskedOrOutsideTheRegion) {
   EXPECT_EQ(preprocessor.surface().window, kRegion);
 }
 
-TEST(Preprocessor, MakesTheSurfaceOfFilteredDepth) {
+TEST(Preprocessor, MayMakeTheWholeSurfaceOfFilteredDepth) {
   Device device;
   const Frame frame = made_depth(kCamera);
-  const Acquisition acquisition = usual();
+  Acquisition acquisition = usual();
+  acquisition.filters_points = true;
   Preprocessor preprocessor(device, Rig{kCamera}, acquisition);
   preprocessor.process(frame);
   DepthMap depth(whole_image(kCamera));
@@ -50,6 +51,29 @@ TEST(Preprocessor, MakesTheSurfaceOfFilteredDepth) {
   EXPECT_EQ(preprocessor.surface().points().host(), expected.points().host());
   EXPECT_EQ(preprocessor.surface().normals().host(), expected.normals().host());
   EXPECT_NE(preprocessor.surface().points().host()[2], frame.depth(0, 0)) << "not filtered";
+}
+
+TEST(Preprocessor, PointsAreThoseThatWereMeasured) {
+  Device device;
+  const Frame frame = made_depth(kCamera);
+  const Acquisition acquisition = usual();
+  Preprocessor preprocessor(device, Rig{kCamera}, acquisition, kRegion);
+  preprocessor.process(frame);
+  const SurfaceMap& surface = preprocessor.surface();
+  int seen = 0;
+  for (int v = kRegion.top; v < kRegion.top + kRegion.height; ++v) {
+    for (int u = kRegion.left; u < kRegion.left + kRegion.width; ++u) {
+      const Eigen::Vector3f point = finite_or_none(surface, surface.points(), {u, v});
+      const float depth = frame.depth(u, v);
+      if (!is_depth(depth)) {
+        EXPECT_EQ(point.z(), 0) << u << " " << v;
+        continue;
+      }
+      EXPECT_LT((point - kCamera.unproject(u, v, depth).cast<float>()).norm(), 1e-3F) << u << " " << v;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 1000);
 }
 
 TEST(Preprocessor, AFrameWithoutDepthIsFullOfHoles) {
