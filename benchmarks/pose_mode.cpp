@@ -33,7 +33,7 @@ using nlohmann::ordered_json;
 
 /// A sequence whose camera poses are known.
 struct KnownSequence {
-  const char* name;  ///< of its file in benchmarks/sequences
+  const char* name;  ///< of its file in experiments/tracking
   const char*
       poses;  ///< their file in a data folder that not every machine has; empty: the stream knows them
 };
@@ -46,7 +46,7 @@ constexpr std::array sequences{
 };
 
 Parameters read_experiment(const std::string& name, const Registry& registry) {
-  const fs::path file = fs::path(PLIANT_SOURCE_FOLDER) / "benchmarks" / "sequences" / (name + ".yaml");
+  const fs::path file = fs::path(PLIANT_SOURCE_FOLDER) / "experiments" / "tracking" / (name + ".yaml");
   return load_experiment({file, {}, data_folders("")},
                          {component("data", FrameSource::kind), component("model", ModelKind::kind, "tsdf"),
                           component("pose", PoseEstimatorKind::kind, "icp_projective")},

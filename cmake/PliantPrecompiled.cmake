@@ -15,5 +15,6 @@ endfunction()
 function(pliant_reuse_precompiled TARGET OWNER)
   if(PLIANT_PRECOMPILED_HEADERS)
     target_precompile_headers(${TARGET} REUSE_FROM ${OWNER})
+    target_link_libraries(${TARGET} PRIVATE OpenCL::OpenCL) # for what is inline in its header
   endif()
 endfunction()

@@ -78,12 +78,15 @@ void check_quick(const ExperimentPlan& plan, const std::string& file) {
   }
 }
 
-/// Handles are needed by all runs or by none: what is written of a bent surface is not what is written of a
-/// registered one.
-void check_handles(const ExperimentPlan& plan) {
+/// Handles, or a model, are needed by all runs or by none: what is written of a bent surface, or of a tracked
+/// stream, is not what is written of a registered pair.
+void check_tasks(const ExperimentPlan& plan) {
+  const Parameters& experiment = plan.experiment.values;
   for (const auto& run : plan.runs) {
-    if (run.values.sections("handles").empty() != plan.experiment.values.sections("handles").empty())
+    if (run.values.sections("handles").empty() != experiment.sections("handles").empty())
       throw ConfigError(run.place + ": the run has handles, the experiment has none; expected them in both");
+    if (run.values.has("model") != experiment.has("model"))
+      throw ConfigError(run.place + ": the run has a model, the experiment has none; expected one in both");
   }
 }
 
@@ -177,7 +180,7 @@ ExperimentPlan plan_experiment(const ConfigSource& source, const Registry& regis
   for (const auto& run : plan.runs) device_options(run.values);
   check_quick(plan, file);
   make_study(plan.experiment.values.section("study"), study_rows(plan, {}));
-  check_handles(plan);
+  check_tasks(plan);
   return plan;
 }
 

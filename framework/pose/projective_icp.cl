@@ -135,7 +135,7 @@ kernel void accumulate(int level, int2 size, int step, global const float* sourc
     const Truth lands = q.z > (Lanes)0;
     const Lanes farthest = fmax((Lanes)max_distance, noise * noise_at(q.z));
     const Truth matches = lands && inner(away, away) <= farthest * farthest && inner(own, own) > (Lanes)0 &&
-                          inner(n, n) > (Lanes)0 && inner(own, n) >= (Lanes)least_cosine;
+                          (inner(own, n) >= (Lanes)least_cosine || inner(n, n) == (Lanes)0);
     add_matches(matches, minus_point(q, to), away, own, sums);
     sums[LANDED] += WHERE(lands, (Lanes)1);
     sums[SAMPLES] += WHERE(there, (Lanes)1);

@@ -17,7 +17,8 @@ struct ProjectiveIcpOptions {
   /// 1.9 (z - 0.4)^2 mm with z in metres [Nguyen, Izadi, Lovell 2012]: beyond 1.5 m these are more than
   /// 10 mm. 0: it may not.
   double noise = 3;
-  double max_angle = 0.34907;  ///< radians (20 degrees); matches whose normals differ by more are rejected
+  double max_angle = 0.34907;  ///< radians (20 degrees); matches whose normals differ by more are rejected; a
+                               ///< point of the target without a normal, as at a rim, is judged by distance
   /// From coarse to fine. The last one takes all points of the source, each before it half as many in u and
   /// v.
   int levels = 3;

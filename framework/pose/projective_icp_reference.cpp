@@ -95,9 +95,8 @@ RigidEquations projective_equations_reference(const SurfaceMap& source, const Su
     const Eigen::Vector3d own = pose.linear() * finite_or_none(source.normals(), pixel).cast<double>();
     const Eigen::Vector3d other = finite_or_none(target, target.normals(), *landed).cast<double>();
     const Eigen::Vector3d offset = moved - q;
-    if (own.isZero(0) || other.isZero(0) || offset.norm() > level.farthest(q.z()) ||
-        own.dot(other) < std::cos(level.max_angle))
-      continue;
+    const bool is_turned = !other.isZero(0) && own.dot(other) < std::cos(level.max_angle);
+    if (own.isZero(0) || offset.norm() > level.farthest(q.z()) || is_turned) continue;
     ++equations.matches;
     const Eigen::Vector3d lever = q - pivot;
     Vector6 J;

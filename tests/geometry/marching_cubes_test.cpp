@@ -113,8 +113,8 @@ TEST(MarchingCubes, AGridWithoutASurfaceOrWithoutSamplesHasNoTriangles) {
 
 TEST(MarchingCubes, ValuesThatDoNotFitTheSizeAreRefused) {
   const std::vector<float> values(26);
-  EXPECT_THROW(marching_cubes({{3, 3, 3}, {0, 0, 0}, 1, values}), std::invalid_argument);
-  EXPECT_THROW(marching_cubes({{-3, 3, 3}, {0, 0, 0}, 1, values}), std::invalid_argument);
+  EXPECT_THROW(marching_cubes({{{3, 3, 3}, {0, 0, 0}, 1}, values}), std::invalid_argument);
+  EXPECT_THROW(marching_cubes({{{-3, 3, 3}, {0, 0, 0}, 1}, values}), std::invalid_argument);
 }
 
 }  // namespace
