@@ -191,16 +191,18 @@ Vector normal_of(Course course, Vector ray, float2 focal) {
   return only(course.spread > (Lanes)0, scaled(least, select(length, -length, inner(least, ray) > (Lanes)0)));
 }
 
+// `tile`: columns and rows of the tiles, at most TILE_COLUMNS.
 kernel void integral_images(global const float* depth, int stride, int2 size, int2 corner, float4 camera,
-                            int radius, float depth_change, float most_coarse, local int* sums,
+                            int2 tile_size, int radius, float depth_change, float most_coarse, local int* sums,
                             global float* points, global float* normals) {
-  const int tiles = (size.x + TILE_COLUMNS - 1) / TILE_COLUMNS;
-  const int top = get_global_id(0) / tiles * TILE_ROWS;
-  const int left = (get_global_id(0) % tiles) * TILE_COLUMNS;
+  const int tiles = (size.x + tile_size.x - 1) / tile_size.x;
+  const int top = get_global_id(0) / tiles * tile_size.y;
+  const int left = (get_global_id(0) % tiles) * tile_size.x;
   if (top >= size.y) return;
-  const int rows = min(TILE_ROWS, size.y - top) + 2 * radius;
-  const int columns = min(SUM_STRIDE, stride - left);
-  global const float* tile = depth + (top + HALO - radius) * stride + left;
+  const int rows = min(tile_size.y, size.y - top) + 2 * radius;
+  const int before = radius + 1;  // columns of the sums that come before the tile
+  const int columns = before + min(tile_size.x, size.x - left) + radius;
+  global const float* tile = depth + (top + HALO - radius) * stride + HALO + left - before;
   const int coarse_bits = spare_bits(tile, stride, columns, rows, most_coarse);
   for (int i = 0; i < ROW; i += WIDTH) STORE_INTS((Ints)0, sums + i);
   int last = 0;
@@ -211,12 +213,12 @@ kernel void integral_images(global const float* depth, int stride, int2 size, in
     last = next;
     const int v = top + y - 2 * radius;
     if (v < top) continue;
-    for (int u = left; u < min(left + TILE_COLUMNS, size.x); u += WIDTH) {
+    for (int u = left; u < min(left + tile_size.x, size.x); u += WIDTH) {
       const Lanes z = LOAD(depth + (v + HALO) * stride + u + HALO);
       Vector point = {0, 0, 0}, normal = {0, 0, 0};
       if (ANY_DEPTH(z)) {
         const Vector ray = ray_through(u, v, corner, camera);
-        const Course course = course_around(sums, last, u - left + HALO, y - radius, radius, coarse_bits);
+        const Course course = course_around(sums, last, u - left + before, y - radius, radius, coarse_bits);
         normal = normal_of(course, ray, camera.xy);
         point = only(HAS_DEPTH(z), scaled(ray, z));
       }

@@ -11,7 +11,7 @@
 namespace pliant {
 namespace {
 
-constexpr int tile_rows = 48;
+constexpr int most_rows = 48;      // of a tile
 constexpr double steps = 1 << 28;  // of inverse depth, that of 1 mm: 1/8000 mm at 200 mm, 1/30 mm at 3 m
 
 /// The most that inverse depth may come to where it is squared, so that squared differences over a window
@@ -21,13 +21,25 @@ float most_coarse(int radius, float depth_change) {
   return static_cast<float>(std::sqrt(std::pow(2.0, 31) / pixels) / (radius * depth_change));
 }
 
-int tile_columns(const Device& device) { return 10 * device.width(); }
+int most_columns(const Device& device) { return 10 * device.width(); }
 
-std::size_t tiles(const PixelWindow& window, int columns) {
-  const auto count = [](int pixels, int in_tile) {
-    return static_cast<std::size_t>((pixels + in_tile - 1) / in_tile);
-  };
-  return count(window.width, columns) * count(window.height, tile_rows);
+int parts_of(int value, int divisor) { return (value + divisor - 1) / divisor; }
+
+/// Tiles of equal size, so that all processors are done at once.
+struct Tiling {
+  int columns;  ///< of a tile, whole vectors
+  int rows;
+  std::size_t count;
+};
+
+Tiling tiling_of(const PixelWindow& window, const Device& device) {
+  const int across = parts_of(window.width, most_columns(device));
+  const int down = parts_of(window.height, most_rows);
+  const int columns = parts_of(parts_of(window.width, across), device.width()) * device.width();
+  const int rows = parts_of(window.height, down);
+  return {columns, rows,
+          static_cast<std::size_t>(parts_of(window.width, columns)) *
+              static_cast<std::size_t>(parts_of(window.height, rows))};
 }
 
 /// Whether all pixels of a window have depth and none of them an edge to the next.
@@ -81,15 +93,17 @@ IntegralImages::IntegralImages(int radius, double depth_change)
 
 void IntegralImages::write(Device& device, const DepthMap& map, SurfaceMap& surface) const {
   static const std::string source = with_plane(embedded::framework_imaging_integral_images_cl);
-  const int columns = tile_columns(device);
-  const std::string options = fmt::format("{} -DTILE_ROWS={} -DTILE_COLUMNS={} -DNEAREST={:e}f -DSTEPS={:e}f",
-                                          plane_options(), tile_rows, columns, nearest_depth, steps);
+  const std::string options = fmt::format("{} -DTILE_COLUMNS={} -DNEAREST={:e}f -DSTEPS={:e}f",
+                                          plane_options(), most_columns(device), nearest_depth, steps);
   auto kernel = device.kernel(source, "integral_images", options);
-  const auto sums = static_cast<std::size_t>(5 * (2 * radius_ + 2) * (columns + 2 * DepthMap::halo));
+  const auto sums =
+      static_cast<std::size_t>(5 * (2 * radius_ + 2) * (most_columns(device) + 2 * DepthMap::halo));
   const PixelWindow& window = map.window;
-  device.run("surface", kernel, tiles(window, columns), 1, map.depth.device(device),
-             static_cast<cl_int>(map.stride), cl_int2{{window.width, window.height}},
-             cl_int2{{window.left, window.top}}, pinhole(surface.camera), static_cast<cl_int>(radius_),
+  if (window.size() == 0) return;
+  const Tiling tiling = tiling_of(window, device);
+  device.run("surface", kernel, tiling.count, 1, map.depth.device(device), static_cast<cl_int>(map.stride),
+             cl_int2{{window.width, window.height}}, cl_int2{{window.left, window.top}},
+             pinhole(surface.camera), cl_int2{{tiling.columns, tiling.rows}}, static_cast<cl_int>(radius_),
              depth_change_, most_coarse(radius_, depth_change_), cl::Local(sizeof(cl_int) * sums),
              surface.map.points.write_device(device), surface.map.normals.write_device(device));
 }

@@ -224,5 +224,18 @@ TEST_F(OpenNiCamera, UnpluggedWhileItIsRecordedKeepsWhatCame) {
   EXPECT_EQ(frames[2].color.pixels(), color(3).pixels());
 }
 
+TEST_F(OpenNiCamera, UnpluggedWhileItIsTrackedLeavesWhatWasTracked) {
+  plug_in(both_sensors() + "registers\n" + images(3) + "unplug\n");
+  write("e.yaml",
+        std::string("data: {type: openni}\nmodel: {type: tsdf, volume: fitted, resolution: 32}\n"
+                    "acquisition: {filter: none}\nreports: {}\n"));
+  const auto run = call("track e.yaml --out mine", "LD_LIBRARY_PATH='" WITH_DRIVER "'");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("the camera was unplugged"));
+  EXPECT_THAT(text_of("mine/result.json"), HasSubstr("\"frames\": 3"));
+  EXPECT_THAT(text_of("mine/frames.jsonl"), HasSubstr("\"frame\":3"));
+  EXPECT_THAT(text_of("mine/model.ply"), HasSubstr("end_header"));
+}
+
 }  // namespace
 }  // namespace pliant

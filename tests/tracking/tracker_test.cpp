@@ -151,5 +151,31 @@ TEST_F(TrackerTest, AllocatesNothingAfterTheThirdFrameAndNothingGrows) {
   EXPECT_LT(host_bytes(), bytes + 25000) << "a hundred bytes a frame would be as much";
 }
 
+TEST_F(TrackerTest, TenThousandFramesTakeNoMoreMemoryThanAHundred) {
+  const Camera small{40, 40, 15.5, 11.5, 32, 24};
+  Tracker tracker(method_, Rig{small}, device_);
+  const auto host_bytes = [] { return mallinfo2().uordblks + mallinfo2().hblkhd; };
+  std::uint64_t allocations = 0;
+  std::size_t bytes = 0;
+  int lost = 0;
+  for (int i = 0; i < 10000; ++i) {
+    Frame frame;
+    frame.time = i;
+    frame.depth = DepthImage(small.width, small.height, 0);
+    for (int v = 0; v < small.height; ++v)
+      for (int u = 0; u < small.width; ++u)
+        frame.depth(u, v) = 500 + static_cast<float>((u - 16) * (u - 16) + 2 * (v - 12) * (v - 12)) / 8 +
+                            static_cast<float>(i % 20 < 10 ? i % 10 : 10 - i % 10);
+    lost += tracker.track(frame).state == FrameState::lost ? 1 : 0;
+    if (i == 100) {
+      allocations = device_.counts().allocations;
+      bytes = host_bytes();
+    }
+  }
+  EXPECT_EQ(lost, 0);
+  EXPECT_EQ(device_.counts().allocations, allocations);
+  EXPECT_LT(host_bytes(), bytes + (1 << 20)) << "a hundred bytes a frame would be as much";
+}
+
 }  // namespace
 }  // namespace pliant::testing
