@@ -18,7 +18,8 @@ const DepthSensorSettings kinect{1, 1, 1, 80, 75};
 void add_box(Mesh& mesh, const Eigen::Vector3f& centre, const Eigen::Vector3f& half, bool open) {
   const int first = static_cast<int>(mesh.vertices.size());
   for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3f sides(corner % 2 * 2 - 1, corner / 2 % 2 * 2 - 1, corner / 4 * 2 - 1);
+    const auto side = [&](int axis) { return (corner >> axis & 1) != 0 ? 1.0F : -1.0F; };
+    const Eigen::Vector3f sides(side(0), side(1), side(2));
     mesh.vertices.emplace_back(centre + half.cwiseProduct(sides));
   }
   std::vector<Eigen::Vector4i> sides{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}};

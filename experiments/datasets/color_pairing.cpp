@@ -4,9 +4,20 @@
 
 namespace pliant {
 
+namespace {
+
+constexpr double farthest = 0.02;  // s
+constexpr double patience = 0.2;   // s
+
+}  // namespace
+
+/// Colour that no depth has come to for so long is dropped: a sensor that is silent must not fill the memory.
+void ColorPairing::add_color(ColorImage image, double time) {
+  while (depth_.empty() && !color_.empty() && color_.front().time < time - patience) color_.pop_front();
+  color_.push_back({std::move(image), time});
+}
+
 std::optional<Frame> ColorPairing::next() {
-  constexpr double farthest = 0.02;  // s
-  constexpr double patience = 0.2;   // s
   if (depth_.empty()) return std::nullopt;
   const double time = depth_.front().time;
   while (!color_.empty() && color_.front().time < time - farthest) color_.pop_front();

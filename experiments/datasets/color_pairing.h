@@ -14,7 +14,7 @@ class ColorPairing {
  public:
   /// A frame without colour.
   void add_depth(Frame frame) { depth_.push_back(std::move(frame)); }
-  void add_color(ColorImage image, double time) { color_.push_back({std::move(image), time}); }
+  void add_color(ColorImage image, double time);
   /// No further colour comes.
   void end_color() { has_ended_ = true; }
   /// The next frame, once it is known what goes with it.

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <sstream>
 #include <thread>
 #include <tuple>
@@ -56,12 +57,11 @@ class Session {
 /// Notices that a device is unplugged. OpenNI2 tells it on a thread of its own.
 class Watch : public OpenNI::DeviceDisconnectedListener {
  public:
-  Watch() { OpenNI::addDeviceDisconnectedListener(this); }
+  explicit Watch(std::string uri) : uri_(std::move(uri)) { OpenNI::addDeviceDisconnectedListener(this); }
   ~Watch() override { OpenNI::removeDeviceDisconnectedListener(this); }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  void look_at(const std::string& uri) { uri_ = uri; }
   bool is_lost() const { return is_lost_; }
 
  private:
@@ -69,7 +69,7 @@ class Watch : public OpenNI::DeviceDisconnectedListener {
     if (uri_ == device->getUri()) is_lost_ = true;
   }
 
-  std::string uri_;
+  const std::string uri_;  // OpenNI2's thread reads it
   std::atomic<bool> is_lost_ = false;
 };
 
@@ -178,7 +178,7 @@ struct OpenNiDevice::State {
 
   bool is_recording;
   Session session;
-  Watch watch;
+  std::optional<Watch> watch;
   openni::Device device;
   VideoStream depth;
   VideoStream color;
@@ -195,7 +195,7 @@ OpenNiDevice::State::State(const Settings& settings) : is_recording(!settings.re
   else
     open_camera(device, settings.uri);
   const openni::DeviceInfo& info = device.getDeviceInfo();
-  watch.look_at(info.getUri());
+  watch.emplace(info.getUri());
   name = is_recording ? std::filesystem::path(settings.recording).stem().string()
                       : fmt::format("{} ({})", info.getName(), info.getUri());
   open_streams(settings.color);
@@ -289,14 +289,14 @@ int OpenNiDevice::State::wait() {
   std::array<VideoStream*, 2> streams{&depth, &color};
   // Waiting anew makes a player go on: it would overwrite an image that it has just played.
   const int slice = is_recording ? patience : 100;
-  for (int waited = 0; waited < patience && !watch.is_lost(); waited += slice) {
+  for (int waited = 0; waited < patience && !watch->is_lost(); waited += slice) {
     int ready = -1;
     if (OpenNI::waitForAnyStream(streams.data(), has_color ? 2 : 1, &ready, slice) == openni::STATUS_OK)
       return ready;
   }
   if (is_recording) throw DataError(fmt::format("{}: it ends {} images before its last one", name, left));
-  throw SourceLost(name + (watch.is_lost() ? ": the camera was unplugged"
-                                           : ": no image for 5 s; is the camera still plugged in?"));
+  throw SourceLost(name + (watch->is_lost() ? ": the camera was unplugged"
+                                            : ": no image for 5 s; is the camera still plugged in?"));
 }
 
 OpenNiDevice::OpenNiDevice(const Settings& settings) : state_(std::make_unique<State>(settings)) {}

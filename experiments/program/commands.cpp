@@ -53,7 +53,10 @@ void make(const Task& task, const ExperimentPlan& plan, const ExperimentOptions&
   RunOptions how{options.repeats};
   if (task.can_end_early()) how.is_ended = [&asked = interruption.emplace()] { return asked.is_asked(); };
   std::optional<LiveView> live;
-  if (options.show) how.observer = &live.emplace(how.is_ended);
+  if (options.show) {
+    how.observer = &live.emplace(how.is_ended);
+    how.is_ended = [asked = how.is_ended, &live] { return asked() || live->is_closed(); };
+  }
   const ExperimentResult result = run_experiment(task, plan, folder, workbench, line.sink(), how);
   line.clear();
   tell(task, plan, result, folder);

@@ -26,7 +26,8 @@ std::atomic<bool> is_asked_to_finish = false;
   const auto kept = ResultFolder::abandon_all();
   write_message(isatty(STDERR_FILENO) != 0 ? "\r\033[Kinterrupted\n" : "interrupted\n");
   for (const auto& folder : kept)
-    write_message(folder.string() + ": the finished runs; the same command goes on from there\n");
+    write_message(folder.string() +
+                  ": what is finished; the same command goes on from whole runs of several\n");
   ::_exit(128 + signal);
 }
 

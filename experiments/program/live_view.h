@@ -19,6 +19,7 @@ class LiveView : public TrackObserver {
 
   void begin(const Rig& rig) override;
   bool show(const TrackedFrame& tracked) override;
+  bool is_closed() const { return window_.is_closed(); }
 
  private:
   std::function<bool()> is_ended_;

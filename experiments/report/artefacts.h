@@ -90,6 +90,7 @@ struct RunArtefacts : RunSummary {
   std::vector<Picture> pictures = {};
   std::vector<NamedSurface> surfaces = {};
   std::optional<View> view = {};
+  bool has_ended_early = false;                   ///< made once more, there may be more to it
   std::vector<std::filesystem::path> files = {};  ///< what the task itself wrote into the run's folder
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -27,7 +28,7 @@ inline constexpr Rgb no_color{231, 233, 236};
 /// Which colour of its map a finite value has.
 inline std::size_t color_index(const ColorScale& scale, float value) {
   const float part = (value - scale.lowest) / (scale.highest - scale.lowest);
-  return static_cast<std::size_t>(255 * std::clamp(part, 0.0F, 1.0F) + 0.5F);
+  return static_cast<std::size_t>(std::lround(255 * std::clamp(part, 0.0F, 1.0F)));
 }
 
 /// The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `value` > 0.

@@ -102,6 +102,11 @@ class Runs {
     const auto failed = [&](const Error& error) {
       made_.failed.push_back({run.name, error.what(), std::current_exception()});
     };
+    if (options_.is_ended()) {
+      const DataError ended(run.place + ": it was ended before this run began");
+      made_.failed.push_back({run.name, ended.what(), std::make_exception_ptr(ended)});
+      return;
+    }
     const fs::path own = folder_of(run, result.unfinished());
     std::optional<RunArtefacts> made;
     try {
@@ -144,7 +149,8 @@ class Runs {
       const auto written = write_reports(run, made, own, under_name(progress_, run.name));
       files.insert(files.end(), written.begin(), written.end());
     }
-    if (plan_.has_variants()) finished.write(made, key(run), files);
+    // What ended early is a result, but not one to go on from.
+    if (plan_.has_variants() && !made.has_ended_early) finished.write(made, key(run), files);
   }
 
   RunStore::Files write_reports(const ExperimentRun& run, const RunArtefacts& made, const fs::path& folder,

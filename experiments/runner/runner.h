@@ -61,8 +61,8 @@ ExperimentResult run_experiment(const Task& task, const ExperimentPlan& plan,
                                 const std::filesystem::path& folder, Workbench& workbench,
                                 const ProgressSink& progress = {}, const RunOptions& options = {});
 
-/// Throws the error of the first run that failed, else NumericalError for the first whose result is not the
-/// one that was asked for.
+/// Throws the error of the first run that failed, else DataError or NumericalError for the first whose
+/// result is not the one that was asked for.
 void check_ends(const ExperimentResult& result);
 
 /// The key figures of each run. Links lead from `folder_name` (empty: from inside the folder).

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pliant {
@@ -42,14 +43,15 @@ Table summary_table(const std::string& name, const TrackSummary& summary, const 
              known(rmse.has_value(), "{:.2f}", error.translation),
              known(rmse.has_value(), "{:.3f}", error.rotation),
              known(end.model_error.has_value(), "{:.2f}", end.model_error.value_or(ModelError{}).mean),
-             fmt::format("{:.1f}", summary.mean_ms()), fmt::format("{:.1f}", 1e3 / summary.mean_ms())}}}};
+             fmt::format("{:.1f}", summary.mean_ms()),
+             summary.mean_ms() > 0 ? fmt::format("{:.1f}", 1e3 / summary.mean_ms()) : "unknown"}}}};
 }
 
 Table stages_table(const TrackSummary& summary) {
   Table table{"Time a frame", {}, {}};
   for (const auto& [stage, time] : summary.time_ms)
     table.rows.push_back(
-        {{stage, fmt::format("{:.2f} ms", time / static_cast<double>(summary.frames.size()))}});
+        {{stage, fmt::format("{:.2f} ms", time / std::max(summary.count(FrameState::tracked) - 1, 1))}});
   return table;
 }
 

@@ -18,6 +18,7 @@ void TrackSummary::add(const FrameRecord& record, const std::optional<PoseError>
                     static_cast<float>(record.total_ms),
                     error ? static_cast<float>(error->translation) : unknown,
                     error ? static_cast<float>(error->rotation) : unknown});
+  if (record.state != FrameState::tracked || count(FrameState::tracked) < 2) return;
   for (const auto& [stage, time] : record.time_ms) time_ms[stage] += time;
 }
 
@@ -34,10 +35,11 @@ double TrackSummary::mean_error() const {
 }
 
 double TrackSummary::mean_ms() const {
-  if (frames.empty()) return 0;
   double sum = 0;
-  for (std::size_t i = 1; i < frames.size(); ++i) sum += static_cast<double>(frames[i].total_ms);
-  return frames.size() > 1 ? sum / static_cast<double>(frames.size() - 1) : frames[0].total_ms;
+  int timed = -1;
+  for (const FrameFigures& frame : frames)
+    if (frame.state == FrameState::tracked && ++timed > 0) sum += static_cast<double>(frame.total_ms);
+  return timed > 0 ? sum / timed : 0;
 }
 
 std::optional<PoseError> TrackSummary::rmse() const {

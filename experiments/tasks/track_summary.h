@@ -20,13 +20,13 @@ struct TrackSummary {
     float rotation_error;     ///< degrees, likewise
   };
   std::vector<FrameFigures> frames;
-  StageTimes time_ms;  ///< of all frames together
+  StageTimes time_ms;  ///< added up over the frames that mean_ms() is of
 
   void add(const FrameRecord& record, const std::optional<PoseError>& error);
 
   int count(FrameState state) const;
   double mean_error() const;  ///< mm, over the frames that were tracked; 0 where none was
-  double mean_ms() const;     ///< of a frame, all but the first, which builds kernels
+  double mean_ms() const;  ///< over the frames that were tracked but the first, which builds kernels; 0: none
   /// Root mean squares over the frames whose pose was found and is known; none where there is no such.
   std::optional<PoseError> rmse() const;
 };

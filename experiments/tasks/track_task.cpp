@@ -8,6 +8,7 @@
 #include "experiments/tasks/track_log.h"
 #include "experiments/tasks/track_pictures.h"
 #include "experiments/tasks/track_truth.h"
+#include "experiments/view/augmentation_section.h"
 #include "framework/geometry/prefetched_stream.h"
 #include "framework/io/mesh_writer.h"
 #include "framework/tracking/tracker.h"
@@ -20,6 +21,20 @@ void tell(const ProgressSink& progress, const FrameRecord& record) {
   progress({"", 0,
             fmt::format("frame {}: {}, {:.1f} ms", record.number, to_string(record.state), record.total_ms)});
 }
+
+void check_repeats(const ExperimentRun& run, int repeats) {
+  if (repeats > 0 || run.values.integer("repeat") > 0)
+    throw ConfigError(run.place + ": a stream is tracked once; expected no 'repeat'");
+}
+
+/// A device tells the times of its stages while one lives.
+struct Measuring {
+  explicit Measuring(Device& measured) : device(measured) { device.measure_stages(true); }
+  ~Measuring() { device.measure_stages(false); }
+  Measuring(const Measuring&) = delete;
+  Measuring& operator=(const Measuring&) = delete;
+  Device& device;
+};
 
 class TrackTask : public Task {
  public:
@@ -35,23 +50,28 @@ class TrackTask : public Task {
   }
 
   std::vector<std::string> check(const ExperimentRun& run, Workbench& workbench) const override {
-    make_tracking_method(run.values, workbench.registry());
+    check_repeats(run, 0);
+    const TrackingMethod method = make_tracking_method(run.values, workbench.registry());
     const auto stream = workbench.open(run.values);
+    const Tracker tracker(method, stream->rig(), workbench.device(run.values));
+    if (run.values.has("augmentation")) read_object(run.values.section("augmentation"));
     CheckedStream(*stream).next();
     return stream->warnings();
   }
 
   RunArtefacts make(const ExperimentRun& run, Workbench& workbench, const Making& making) const override {
+    check_repeats(run, making.repeats);
     return told_with_place(run.place, [&] {
+      Device& device = workbench.device(run.values);
       const TrackingMethod method = make_tracking_method(run.values, workbench.registry());
       const auto stream = workbench.open(run.values);
-      Tracker tracker(method, stream->rig(), workbench.device(run.values));
+      Tracker tracker(method, stream->rig(), device);
       TrackSummary summary;
       TrackTruth truth(*stream);
-      TrackPictures pictures(run, making, stream->rig(), workbench.device(run.values));
-      workbench.device(run.values).measure_stages(true);
+      TrackPictures pictures(run, making, stream->rig(), device);
+      const Measuring measuring(device);
       TrackEnd end = track_all(*stream, tracker, making, truth, pictures, summary);
-      workbench.device(run.values).measure_stages(false);
+      if (summary.frames.empty()) throw DataError("it was ended before its first frame");
       std::vector<std::filesystem::path> files;
       for (const auto& name : TrackLog::files()) files.push_back(making.folder / name);
       Mesh model;
@@ -62,6 +82,7 @@ class TrackTask : public Task {
       }
       RunArtefacts made = track_artefacts(run, summary, end);
       made.files = std::move(files);
+      made.has_ended_early = making.is_ended() || !end.error.empty();
       pictures.add_to(made, std::move(model));
       return made;
     });

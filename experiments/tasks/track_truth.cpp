@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/evaluation/mesh_distance.h"
+#include "framework/geometry/bounding_box.h"
 
 namespace pliant {
 
@@ -29,7 +30,10 @@ std::optional<ModelError> TrackTruth::error_of(const Mesh& model) const {
   if (first_ == 0 || model.vertices.empty()) return {};
   const auto surface = stream_.surface(first_);
   if (!surface) return {};
-  std::vector<float> distances = MeshDistance(*surface).distances(model.vertices);
+  // About as many samples whatever its size.
+  const double spacing =
+      std::max(5.0, static_cast<double>(box_around(surface->vertices).sizes().maxCoeff()) / 1000);
+  std::vector<float> distances = MeshDistance(*surface, spacing).distances(model.vertices);
   const auto p95 =
       distances.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(distances.size()));
   std::nth_element(distances.begin(), p95, distances.end());

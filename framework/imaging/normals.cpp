@@ -11,6 +11,7 @@ namespace {
 
 Parameter depth_change() {
   return real("depth_change", 0.02)
+      .range(0, 1)
       .above(0)
       .doc("Part of the depth by which it may change from a pixel to the next on one surface");
 }

@@ -48,7 +48,7 @@ void register_models(Registry& registry) {
               .doc("Voxels along the longest side of the volume, a multiple of 16; 3 bytes each"),
           choice("volume", {"scene", "fitted"}, "scene")
               .doc("scene: a cube before the first camera; fitted: what is around the first frame's points"),
-          real("size", 3000).unit("mm").above(0).doc("Side of a scene's cube"),
+          real("size", 3000).unit("mm").range(10, 1e5).doc("Side of a scene's cube"),
           real("distance", 300).unit("mm").range(0, 1e6).doc("From the first camera to a scene's cube"),
           real("margin", 0.25)
               .range(0, 10)

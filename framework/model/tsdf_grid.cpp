@@ -25,7 +25,7 @@ struct Extent {
   double least, greatest;
 };
 
-/// Of values without the two hundredths that lie farthest out.
+/// Of values without the hundredth at either end.
 Extent extent_of(std::vector<float>& values) {
   const auto rank = static_cast<std::ptrdiff_t>(values.size() / 100);
   const auto low = values.begin() + rank;
@@ -79,7 +79,8 @@ TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, doub
   // A single point has no extent: then the grid has a side of a millimetre.
   const double longest = std::max((greatest - least).maxCoeff(), 1 / (1 + 2 * margin));
   const double voxel = longest * (1 + 2 * margin) / resolution;
-  const Eigen::Vector3d side = (greatest - least).array() + 2 * margin * longest;
+  const Eigen::Vector3d side =
+      ((greatest - least).array() + 2 * margin * longest).max(2 * truncation * voxel).matrix();
   const Eigen::Vector3i size = whole_bricks((side / voxel).array() - 1e-6);
   const Eigen::Vector3d middle = (least + greatest) / 2;
   return {size, middle - (size.cast<double>().array() - 1).matrix() * (voxel / 2), voxel, truncation * voxel};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <vector>
 
 #include "framework/device/array.h"
@@ -17,15 +18,16 @@ struct ProjectiveIcpOptions {
   /// 1.9 (z - 0.4)^2 mm with z in metres [Nguyen, Izadi, Lovell 2012]: beyond 1.5 m these are more than
   /// 10 mm. 0: it may not.
   double noise = 3;
-  double max_angle = 0.34907;  ///< radians (20 degrees); matches whose normals differ by more are rejected; a
-                               ///< point of the target without a normal, as at a rim, is judged by distance
+  /// Radians (20 degrees); matches whose normals differ by more are rejected. A point of the target without a
+  /// normal, as at a rim, is judged by distance.
+  double max_angle = std::numbers::pi / 9;
   /// From coarse to fine. The last one takes all points of the source, each before it half as many in u and
   /// v.
   int levels = 3;
-  int iterations = 10;           ///< at most, in each level
-  double coarse_distance = 80;   ///< mm, of the coarsest level; those between by equal factors
-  double coarse_angle = 1.0472;  ///< radians (60 degrees), likewise, by equal steps
-  double tolerance = 0.05;       ///< mm at the extent of the source; a shorter step ends the last level
+  int iterations = 10;                         ///< at most, in each level
+  double coarse_distance = 80;                 ///< mm, of the coarsest level; those between by equal factors
+  double coarse_angle = std::numbers::pi / 3;  ///< radians (60 degrees), likewise, by equal steps
+  double tolerance = 0.05;  ///< mm at the extent of the source; a shorter step ends the last level
   /// Pull to the start in the last level, as a share of the mean diagonal of J^T J with turns in mm at the
   /// source's extent.
   double damping = 1e-4;

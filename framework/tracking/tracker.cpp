@@ -71,9 +71,10 @@ void Tracker::preprocess(const Frame& frame) {
 }
 
 void Tracker::begin_model(FrameRecord& record) {
-  model_ = method_.model->make(device_, seen());
+  auto model = method_.model->make(device_, seen());
+  fuse_into(*model);
+  model_ = std::move(model);
   record.state = FrameState::started;
-  fuse();
 }
 
 /// Where the model is now: from where it was, by what of it was seen from there [3.3].
@@ -84,13 +85,13 @@ void Tracker::follow(FrameRecord& record) {
   record.reason = record.pose.reason;
   if (record.pose.failed) return;
   camera_from_model_ = record.pose.target_from_source * camera_from_model_;
-  fuse();
+  fuse_into(*model_);
 }
 
 /// Fuses the frame as it was seen, unfiltered, into the model, and looks at that from its camera [3.2].
-void Tracker::fuse() {
-  model_->integrate(preprocessor_->depth(), rig_.depth, camera_from_model_);
-  model_view_ = &model_->raycast(rig_.depth, seen().window, camera_from_model_);
+void Tracker::fuse_into(ReferenceModel& model) {
+  model.integrate(preprocessor_->depth(), rig_.depth, camera_from_model_);
+  model_view_ = &model.raycast(rig_.depth, seen().window, camera_from_model_);
 }
 
 }  // namespace pliant

@@ -29,7 +29,7 @@ class Tracker {
 
   /// Whether a frame has begun the model. What follows asks for one.
   bool has_model() const { return model_ != nullptr; }
-  /// The surface of the frame that was tracked last, filtered, in the frame of its camera.
+  /// The surface of the frame that was tracked last, as Acquisition has it, in the frame of its camera.
   const SurfaceMap& seen() const { return preprocessor_->surface(); }
   /// What that camera would see of the model at the last pose that was found.
   const SurfaceMap& model_view() const { return *model_view_; }
@@ -40,7 +40,7 @@ class Tracker {
   void preprocess(const Frame& frame);
   void begin_model(FrameRecord& record);
   void follow(FrameRecord& record);
-  void fuse();
+  void fuse_into(ReferenceModel& model);
 
   const TrackingMethod& method_;
   Rig rig_;

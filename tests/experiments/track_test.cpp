@@ -22,7 +22,7 @@ const std::string tracked_head =
     "acquisition: {filter: none}\n"
     "data:\n"
     "  type: head\n"
-      "  keys: {a: {at: 0}, b: {at: 0.2, camera: {look_from: [20, 0, 0]}}}\n";
+    "  keys: {a: {at: 0}, b: {at: 0.2, camera: {look_from: [20, 0, 0]}}}\n";
 
 class TrackTest : public ExperimentFiles {
  protected:
@@ -58,7 +58,7 @@ TEST_F(TrackTest, TellsOfEveryFrameAndWritesModelAndTrajectory) {
 
 TEST_F(TrackTest, EndsEarlyWithWhatThereIs) {
   RunOptions options;
-  options.is_ended = [asked = 0]() mutable { return ++asked > 3; };
+  options.is_ended = [asked = 0]() mutable { return ++asked > 4; };  // also before the run
   EXPECT_EQ(track(tracked_head, options)["frames"], 3);
   EXPECT_NO_THROW(check_ends(result_));
 }
@@ -121,6 +121,22 @@ TEST_F(TrackTest, LeavesStripViewAndFilm) {
   EXPECT_EQ(film[48], 4) << "pictures, of frames 1, 3, 5 and 7";
 }
 
+TEST_F(TrackTest, OfSeveralRunsTheNextIsNotBegunAndNoneTakenForWhole) {
+  const std::string two = tracked_head + "runs: {one: {}, two: {}}\nreports: {}\n";
+  const ExperimentPlan plan = this->plan(two, {"data.image_width=160", "data.image_height=120"});
+  RunOptions options;
+  options.is_ended = [asked = 0]() mutable { return ++asked > 4; };
+  const auto task = make_task(plan.experiment.values);
+  result_ = run_experiment(*task, plan, file("out"), workbench_, {}, options);
+  ASSERT_EQ(result_.runs.size(), 1U);
+  EXPECT_EQ(result_.runs[0].json["frames"], 3);
+  ASSERT_EQ(result_.failed.size(), 1U);
+  EXPECT_THAT(result_.failed[0].message, HasSubstr("run two: it was ended before"));
+  const ExperimentResult again = run_experiment(*task, plan, file("out"), workbench_);
+  EXPECT_TRUE(again.taken.empty()) << "the first saw three frames of seven";
+  EXPECT_EQ(again.runs[0].json["frames"], 7);
+}
+
 TEST_F(TrackTest, WhatBreaksAStreamLeavesTheFramesBefore) {
   fs::create_directories(file("frames/depth"));
   for (int i = 0; i < 4; ++i) {
@@ -132,7 +148,8 @@ TEST_F(TrackTest, WhatBreaksAStreamLeavesTheFramesBefore) {
   write("frames/depth/000002.png", "torn");
   write("K.txt", "131.25 0 79.5\n0 131.25 59.5\n0 0 1\n");
   const ExperimentPlan plan = this->plan(
-      "model: {type: tsdf, volume: fitted, resolution: 64}\ndata: {type: folder, folder: frames, intrinsics: K.txt}\n");
+      "model: {type: tsdf, volume: fitted, resolution: 64}\ndata: {type: folder, folder: frames, intrinsics: "
+      "K.txt}\n");
   result_ = run_experiment(*make_task(plan.experiment.values), plan, file("out"), workbench_);
   const auto run = ordered_json::parse(text_of("out/result.json"))["runs"][0];
   EXPECT_EQ(run["frames"], 2);
@@ -143,7 +160,8 @@ TEST_F(TrackTest, WhatBreaksAStreamLeavesTheFramesBefore) {
 TEST_F(TrackTest, ChecksTheFirstFrame) {
   const ExperimentPlan good = plan(tracked_head);
   EXPECT_TRUE(check_experiment(good, workbench_).empty());
-  const ExperimentPlan bad = plan("model: tsdf\ndata: {type: folder, folder: ., fx: 100, fy: 100, cx: 80, cy: 60}\n");
+  const ExperimentPlan bad =
+      plan("model: tsdf\ndata: {type: folder, folder: ., fx: 100, fy: 100, cx: 80, cy: 60}\n");
   EXPECT_THROW(check_experiment(bad, workbench_), Error);
 }
 

@@ -171,9 +171,8 @@ TEST_F(KeepingTest, AnInterruptedSweepGoesOnWhereItWasInterrupted) {
                                "kill -" + signal + " $pid; wait $pid";
     EXPECT_EQ(shell(script), signal == std::string("INT") ? 130 : 137);
     if (signal == std::string("INT")) {
-      EXPECT_THAT(
-          text_of("script.err"),
-          HasSubstr("interrupted\nout/unfinished: the finished runs; the same command goes on from there"));
+      EXPECT_THAT(text_of("script.err"), HasSubstr("interrupted\nout/unfinished: what is finished; the same "
+                                                   "command goes on from whole runs of several"));
     }
     EXPECT_FALSE(fs::exists(file("out/result.json")));
     const auto first = nlohmann::ordered_json::parse(text_of("out/unfinished/first/run.json"))["run"];
