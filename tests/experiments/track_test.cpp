@@ -125,7 +125,8 @@ TEST_F(TrackTest, OfSeveralRunsTheNextIsNotBegunAndNoneTakenForWhole) {
   const std::string two = tracked_head + "runs: {one: {}, two: {}}\nreports: {}\n";
   const ExperimentPlan plan = this->plan(two, {"data.image_width=160", "data.image_height=120"});
   RunOptions options;
-  options.is_ended = [asked = 0]() mutable { return ++asked > 4; };
+  int asked = 0;
+  options.is_ended = [&] { return ++asked > 4; };
   const auto task = make_task(plan.experiment.values);
   result_ = run_experiment(*task, plan, file("out"), workbench_, {}, options);
   ASSERT_EQ(result_.runs.size(), 1U);
