@@ -68,6 +68,9 @@ std::vector<std::string> notes_of(const TrackSummary& summary, const TrackEnd& e
   std::vector<std::string> notes{fmt::format("{} of {} frames tracked, {} lost",
                                              summary.count(FrameState::tracked), summary.frames.size(),
                                              summary.count(FrameState::lost))};
+  if (const int waiting = summary.count(FrameState::waiting); waiting > 0)
+    notes.push_back(fmt::format("{} frames were waited for one that shows the object", waiting));
+  if (end.is_ended) notes.emplace_back("ended early, as asked");
   if (!end.error.empty()) notes.push_back("the frames ended early: " + end.error);
   for (const auto& warning : end.warnings) notes.push_back("warning: " + warning);
   return notes;

@@ -15,6 +15,7 @@ namespace pliant {
 struct TrackEnd {
   std::vector<std::string> warnings;  ///< what was odd about the stream
   std::string error = {};             ///< what broke it; empty: it ended, or was ended
+  bool is_ended = false;              ///< whether somebody ended it before the stream did
   std::optional<ModelError> model_error = {};
 };
 

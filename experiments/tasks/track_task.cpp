@@ -71,6 +71,7 @@ class TrackTask : public Task {
       TrackPictures pictures(run, making, stream->rig(), device);
       const Measuring measuring(device);
       TrackEnd end = track_all(*stream, tracker, making, truth, pictures, summary);
+      end.is_ended = making.is_ended();
       if (summary.frames.empty()) throw DataError("it was ended before its first frame");
       std::vector<std::filesystem::path> files;
       for (const auto& name : TrackLog::files()) files.push_back(making.folder / name);
@@ -82,7 +83,7 @@ class TrackTask : public Task {
       }
       RunArtefacts made = track_artefacts(run, summary, end);
       made.files = std::move(files);
-      made.has_ended_early = making.is_ended() || !end.error.empty();
+      made.has_ended_early = end.is_ended || !end.error.empty();
       pictures.add_to(made, std::move(model));
       return made;
     });
