@@ -5,8 +5,8 @@
 namespace pliant {
 
 const std::vector<FigureKind>& figure_kinds() {
-  static const std::vector<FigureKind> kinds = {sheet_figure(), hand_figure(), head_figure(), bag_figure(),
-                                                body_figure(), room_figure()};
+  static const std::vector<FigureKind> kinds = {sheet_figure(), hand_figure(), head_figure(),
+                                                bag_figure(),   body_figure(), room_figure()};
   return kinds;
 }
 

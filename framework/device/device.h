@@ -42,7 +42,7 @@ struct DeviceOptions {
 struct DeviceCounts {
   std::uint64_t allocations = 0;  ///< of memory on the device, and on the host for what is on its way there
   std::uint64_t allocated_bytes = 0;  ///< on the device
-  std::uint64_t uploads = 0;      ///< copies from the host to the device
+  std::uint64_t uploads = 0;          ///< copies from the host to the device
   std::uint64_t uploaded_bytes = 0;
   std::uint64_t reads = 0;  ///< copies from the device to the host
   std::uint64_t read_bytes = 0;

@@ -193,8 +193,8 @@ Vector normal_of(Course course, Vector ray, float2 focal) {
 
 // `tile`: columns and rows of the tiles, at most TILE_COLUMNS.
 kernel void integral_images(global const float* depth, int stride, int2 size, int2 corner, float4 camera,
-                            int2 tile_size, int radius, float depth_change, float most_coarse, local int* sums,
-                            global float* points, global float* normals) {
+                            int2 tile_size, int radius, float depth_change, float most_coarse,
+                            local int* sums, global float* points, global float* normals) {
   const int tiles = (size.x + tile_size.x - 1) / tile_size.x;
   const int top = get_global_id(0) / tiles * tile_size.y;
   const int left = (get_global_id(0) % tiles) * tile_size.x;

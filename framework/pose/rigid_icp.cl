@@ -202,8 +202,8 @@ kernel void add_up(int padded, global const float* partials, global float* sums)
   for (int k = 0; k < SUMS; ++k) sums[k] = added[k];
 }
 
-// One Gauss-Newton step of each pose. damping: share of the mean diagonal, which keeps still what the matches do not tell;
-// tolerance: share of the level's distance that a last step stays below.
+// One Gauss-Newton step of each pose. damping: share of the mean diagonal, which keeps still what the matches
+// do not tell; tolerance: share of the level's distance that a last step stays below.
 kernel void take_step(int count, int level, int padded, global const float* partials,
                       global const float4* extents, float max_distance, float coarse, float share, float trim,
                       float fewest, float damping, float tolerance, global float* poses) {

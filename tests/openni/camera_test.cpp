@@ -226,9 +226,8 @@ TEST_F(OpenNiCamera, UnpluggedWhileItIsRecordedKeepsWhatCame) {
 
 TEST_F(OpenNiCamera, UnpluggedWhileItIsTrackedLeavesWhatWasTracked) {
   plug_in(both_sensors() + "registers\n" + images(3) + "unplug\n");
-  write("e.yaml",
-        std::string("data: {type: openni}\nmodel: {type: tsdf, volume: fitted, resolution: 32}\n"
-                    "acquisition: {filter: none}\nreports: {}\n"));
+  write("e.yaml", std::string("data: {type: openni}\nmodel: {type: tsdf, volume: fitted, resolution: 32}\n"
+                              "acquisition: {filter: none}\nreports: {}\n"));
   const auto run = call("track e.yaml --out mine", "LD_LIBRARY_PATH='" WITH_DRIVER "'");
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_THAT(run.err, HasSubstr("the camera was unplugged"));
