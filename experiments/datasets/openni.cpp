@@ -58,8 +58,7 @@ ParameterTable openni_table() {
       boolean("registered")
           .optional()
           .doc("whether depth has the colour camera's view; a camera is asked to wherever it can, a "
-               "recording is "
-               "taken for not"),
+               "recording is taken for not"),
       path("color_intrinsics")
           .optional()
           .doc("of the colour where it is not registered; by its field of view"),

@@ -45,8 +45,7 @@ class Session {
     OpenNI::shutdown();
     throw DataError(
         "OpenNI2 has no driver: it takes lib*.so.0 from the folder OpenNI2/Drivers beside its library; "
-        "install "
-        "Debian's libopenni2-0 (" +
+        "install Debian's libopenni2-0 (" +
         why + ")");
   }
   ~Session() { OpenNI::shutdown(); }
@@ -81,10 +80,9 @@ std::string described_cameras() {
     found.push_back(fmt::format("'{}' ({})", devices[i].getUri(), devices[i].getName()));
   if (!found.empty()) return fmt::format("there is {}", fmt::join(found, ", "));
   return "OpenNI2 finds none: plug one in that it drives (the drivers of Debian's libopenni2-0 know "
-         "PrimeSense's "
-         "sensors and their kin, as Asus Xtion; those of others belong into the folder OpenNI2/Drivers "
-         "beside the "
-         "library, named lib*.so.0) and that you may use (plug it in again after installing)";
+         "PrimeSense's sensors and their kin, as Asus Xtion; those of others belong into the folder "
+         "OpenNI2/Drivers beside the library, named lib*.so.0) and that you may use (plug it in again after "
+         "installing)";
 }
 
 void open_camera(openni::Device& device, const std::string& uri) {

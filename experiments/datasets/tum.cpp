@@ -45,8 +45,7 @@ void register_tum(Registry& registry) {
       with_sequence(
           {
               path("folder").doc("with associations.txt, or depth.txt and rgb.txt, the images they name, and "
-                                 "groundtruth.txt where "
-                                 "there is one"),
+                                 "groundtruth.txt where there is one"),
               choice("camera", {"freiburg1", "freiburg2", "freiburg3", "ros_default"}, "ros_default")
                   .doc("a camera of the benchmark, where neither 'intrinsics' nor numbers are given"),
           },

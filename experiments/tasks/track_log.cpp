@@ -66,7 +66,7 @@ TrackLog::TrackLog(const std::filesystem::path& folder)
 void TrackLog::add(const FrameRecord& record, const std::optional<PoseError>& error) {
   json_.append(json_of(record, error));
   csv_.append(csv_of(record, error));
-  if (record.state == FrameState::started || record.state == FrameState::tracked)
+  if (has_pose(record.state))
     trajectory_.append(trajectory_line({record.time, record.camera_from_model.inverse()}));
 }
 

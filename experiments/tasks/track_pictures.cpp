@@ -28,8 +28,8 @@ TrackPictures::TrackPictures(const ExperimentRun& run, const Making& making, con
 bool TrackPictures::show(const Frame& frame, const FrameRecord& record, const Tracker& tracker) {
   const bool has_model = tracker.has_model();
   ColorImage augmented;
-  const bool is_found = record.state == FrameState::started || record.state == FrameState::tracked;
-  if (augmentation_ && is_found) augmented = augmentation_->draw(frame, record.camera_from_model);
+  if (augmentation_ && has_pose(record.state))
+    augmented = augmentation_->draw(frame, record.camera_from_model);
   const TrackedFrame tracked{frame, augmented.empty() ? frame.color : augmented, record,
                              has_model ? &tracker.seen() : nullptr,
                              has_model ? &tracker.model_view() : nullptr};

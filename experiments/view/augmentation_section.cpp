@@ -43,8 +43,7 @@ ParameterTable augmentation_table() {
       reals("at", 3, std::vector<double>{0, 0, 0})
           .unit("mm")
           .doc("where its origin is fixed, in the model's frame, that of the first depth image: x right, y "
-               "down, "
-               "z forward"),
+               "down, z forward"),
       reals("turn", 3, std::vector<double>{0, 0, 0})
           .unit("degree")
           .doc("how it is turned in that frame about x, then y, then z, from upright and facing the camera"),

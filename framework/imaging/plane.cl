@@ -31,18 +31,22 @@ Lanes smallest_root(Lanes c1, Lanes c0) {
   return root;
 }
 
+// The column that has the largest entry on the diagonal.
+Vector largest_column(Symmetric a) {
+  const Lanes x = fabs(a.xx), y = fabs(a.yy), z = fabs(a.zz), larger = fmax(x, y);
+  const Vector column = {select(select(a.xx, a.xy, y > x), a.xz, z > larger),
+                         select(select(a.xy, a.yy, y > x), a.yz, z > larger),
+                         select(select(a.xz, a.yz, y > x), a.zz, z > larger)};
+  return column;
+}
+
 // A vector along the eigenvector of `a` whose eigenvalue is nearest to `value`, by inverse iteration: the
 // column of the adjugate of a - value I that has the largest entry on the diagonal.
 Vector eigenvector_near(Symmetric a, Lanes value) {
   a.xx -= value;
   a.yy -= value;
   a.zz -= value;
-  const Symmetric adj = adjugate(a);
-  const Lanes x = fabs(adj.xx), y = fabs(adj.yy), z = fabs(adj.zz), larger = fmax(x, y);
-  const Vector column = {select(select(adj.xx, adj.xy, y > x), adj.xz, z > larger),
-                         select(select(adj.xy, adj.yy, y > x), adj.yz, z > larger),
-                         select(select(adj.xz, adj.yz, y > x), adj.zz, z > larger)};
-  return column;
+  return largest_column(adjugate(a));
 }
 
 Symmetric of_unit_trace(Symmetric m) {
@@ -71,15 +75,6 @@ Symmetric squared(Symmetric a) {
                             a.xx * a.xz + a.xy * a.yz + a.xz * a.zz, a.xy * a.xy + a.yy * a.yy + a.yz * a.yz,
                             a.xy * a.xz + a.yy * a.yz + a.yz * a.zz, a.xz * a.xz + a.yz * a.yz + a.zz * a.zz};
   return square;
-}
-
-// The column that has the largest entry on the diagonal.
-Vector largest_column(Symmetric a) {
-  const Lanes x = fabs(a.xx), y = fabs(a.yy), z = fabs(a.zz), larger = fmax(x, y);
-  const Vector column = {select(select(a.xx, a.xy, y > x), a.xz, z > larger),
-                         select(select(a.xy, a.yy, y > x), a.yz, z > larger),
-                         select(select(a.xz, a.yz, y > x), a.zz, z > larger)};
-  return column;
 }
 
 // A vector along the eigenvector of the smallest eigenvalue: that of the largest of the adjugate, whose 16th

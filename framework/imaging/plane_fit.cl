@@ -53,13 +53,11 @@ kernel void surface(global const float* depth, int stride, int2 size, int2 corne
   Vector point = {0, 0, 0}, normal = {0, 0, 0};
   if (ANY_DEPTH(z)) {
     const float2 pixel = 1.0f / camera.xy;
-    const Lanes ray_x = ((Lanes)(corner.x + u - camera.z) + LANE_OFFSETS) * pixel.x;
-    const Lanes ray_y = (corner.y + v - camera.w) * pixel.y;
-    const Vector ray = {ray_x, ray_y, 1};
-    Vector fitted = window_normal(centre, stride, radius, depth_step, z, ray_x, ray_y, pixel);
+    const Vector ray = ray_through(u, v, corner, camera);
+    Vector fitted = window_normal(centre, stride, radius, depth_step, z, ray.x, ray.y, pixel);
     Truth is_open = is_undetermined(fitted, ray, z);
     for (int reach = 2 * radius; reach <= WIDEST && ANY(is_open); reach *= 2) {
-      const Vector wider = window_normal(centre, stride, reach, depth_step, z, ray_x, ray_y, pixel);
+      const Vector wider = window_normal(centre, stride, reach, depth_step, z, ray.x, ray.y, pixel);
       fitted.x = select(fitted.x, wider.x, is_open);
       fitted.y = select(fitted.y, wider.y, is_open);
       fitted.z = select(fitted.z, wider.z, is_open);

@@ -26,8 +26,6 @@ class ReferenceModel {
                                     const Eigen::Isometry3d& camera_from_model) = 0;
   /// The whole surface, mm, in the model's frame. Waits for the device.
   virtual Mesh mesh() const = 0;
-  /// Forgets all frames.
-  virtual void clear() = 0;
 };
 
 /// Makes the reference model of an experiment.

@@ -80,9 +80,10 @@ void Tsdf::integrate(const DepthMap& depth, const Camera& camera,
   const auto truncation = static_cast<float>(grid_.truncation);
   const std::size_t tiles = tiles_over(window);
   make_room(bounds_, 2 * tiles);
-  auto bound = tsdf_kernel(device_, embedded::framework_model_tsdf_fuse_cl, "bound_depth");
-  auto find = tsdf_kernel(device_, embedded::framework_model_tsdf_fuse_cl, "find_bricks");
-  auto fuse = tsdf_kernel(device_, embedded::framework_model_tsdf_fuse_cl, "fuse");
+  static const std::string fusing = with_tsdf_grid(embedded::framework_model_tsdf_fuse_cl);
+  auto bound = tsdf_kernel(device_, fusing, "bound_depth");
+  auto find = tsdf_kernel(device_, fusing, "find_bricks");
+  auto fuse = tsdf_kernel(device_, fusing, "fuse");
   device_.run("integrate", bound, tiles, work_group, depth.depth.device(device_),
               static_cast<cl_int>(depth.stride), as_argument(window), bounds_.write_device(device_), found_);
   device_.run("integrate", find, brick_count(grid_), work_group, bricks_of(grid_), placing, pinhole(camera),
@@ -106,9 +107,10 @@ const SurfaceMap& Tsdf::raycast(const Camera& camera, const PixelWindow& window,
   make_room(ranges_, 2 * tiles);
   const Eigen::Affine3d camera_from_voxel = camera_from_model * grid_.model_from_voxel();
   const cl_float16 back = rows_of(camera_from_voxel);
-  auto clear = tsdf_kernel(device_, embedded::framework_model_tsdf_raycast_cl, "clear_ranges");
-  auto bound = tsdf_kernel(device_, embedded::framework_model_tsdf_raycast_cl, "bound_rays");
-  auto cast = tsdf_kernel(device_, embedded::framework_model_tsdf_raycast_cl, "raycast");
+  static const std::string casting = with_tsdf_grid(embedded::framework_model_tsdf_raycast_cl);
+  auto clear = tsdf_kernel(device_, casting, "clear_ranges");
+  auto bound = tsdf_kernel(device_, casting, "bound_rays");
+  auto cast = tsdf_kernel(device_, casting, "raycast");
   const Buffer& ranges = ranges_.write_device(device_);
   device_.run("raycast", clear, tiles, work_group, static_cast<cl_int>(tiles), ranges);
   device_.run("raycast", bound, brick_count(grid_), work_group, bricks_of(grid_), contents_, back,

@@ -34,7 +34,8 @@ class Tsdf : public ReferenceModel {
   const SurfaceMap& raycast(const Camera& camera, const PixelWindow& window,
                             const Eigen::Isometry3d& camera_from_model) override;
   Mesh mesh() const override;
-  void clear() override;
+  /// Forgets all frames.
+  void clear();
 
   const TsdfGrid& grid() const { return grid_; }
   /// Copies the voxels to the host.

@@ -86,13 +86,16 @@ TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, doub
   return {size, middle - (size.cast<double>().array() - 1).matrix() * (voxel / 2), voxel, truncation * voxel};
 }
 
+std::string with_tsdf_grid(std::string_view source) {
+  return with_surface_map(std::string(embedded::framework_model_tsdf_grid_cl).append(source));
+}
+
 cl::Kernel tsdf_kernel(Device& device, std::string_view source, const std::string& name) {
   static const std::string options =
       fmt::format("-DHALO={} -DNO_DEPTH={:e}f -DBRICK_X={} -DBRICK_Y={} -DBRICK_Z={} -DTILE={} -DSTEPS={}.0f",
                   DepthMap::halo, DepthMap::no_depth, TsdfGrid::brick_width, TsdfGrid::brick_height,
                   TsdfGrid::brick_depth, TsdfGrid::tile, TsdfGrid::steps);
-  return device.kernel(with_surface_map(std::string(embedded::framework_model_tsdf_grid_cl).append(source)),
-                       name, options);
+  return device.kernel(source, name, options);
 }
 
 }  // namespace pliant

@@ -47,8 +47,9 @@ TsdfGrid grid_before_camera(int resolution, double side, double distance, double
 /// where there is no point. Waits for the device.
 TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, double truncation);
 
-/// A kernel over such a grid, from a source that is compiled behind lanes.cl, surface_map.cl and
-/// tsdf_grid.cl.
+/// `source` behind lanes.cl, surface_map.cl and tsdf_grid.cl: what kernels over such grids share.
+std::string with_tsdf_grid(std::string_view source);
+/// A kernel of such a source.
 cl::Kernel tsdf_kernel(Device& device, std::string_view source, const std::string& name);
 
 }  // namespace pliant

@@ -16,4 +16,6 @@ std::string to_string(FrameState state) {
   return "";
 }
 
+bool has_pose(FrameState state) { return state == FrameState::started || state == FrameState::tracked; }
+
 }  // namespace pliant

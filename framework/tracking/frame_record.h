@@ -19,6 +19,9 @@ enum class FrameState {
 /// "waiting", "started", "tracked" or "lost"
 std::string to_string(FrameState state);
 
+/// Whether the pose of a frame was found.
+bool has_pose(FrameState state);
+
 /// What tracking a frame came to.
 struct FrameRecord {
   int number = 0;   ///< of the frame in its stream, the first is 1
