@@ -6,12 +6,14 @@
 #include "framework/deformation/node_transform.h"
 #include "framework/imaging/depth_filter.h"
 #include "framework/imaging/normals.h"
+#include "framework/model/deforming_model.h"
 #include "framework/model/reference_model.h"
 #include "framework/pose/alignments.h"
 #include "framework/pose/pose_estimator.h"
 #include "framework/registration/correspondence.h"
 #include "framework/registration/handle.h"
 #include "framework/segmentation/segmentations.h"
+#include "framework/tracking/policy.h"
 #include "graphs/graphs.h"
 #include "samplers/samplers.h"
 #include "solvers/solvers.h"
@@ -24,8 +26,10 @@ void register_everything(Registry& registry) {
   register_normals(registry);
   register_segmentations(registry);
   register_models(registry);
+  register_model_updates(registry);
   register_alignments(registry);
   register_pose_estimators(registry);
+  register_policies(registry);
   register_graphs(registry);
   register_transforms(registry);
   register_samplers(registry);

@@ -17,7 +17,12 @@ ordered_json run_json(const ExperimentRun& run, const TrackSummary& summary, con
                        {"waiting", summary.count(FrameState::waiting)},
                        {"tracked", summary.count(FrameState::tracked)},
                        {"lost", summary.count(FrameState::lost)},
-                       {"mean_error", summary.mean_error()},
+                       {"mean_error", summary.mean(&FrameFigures::mean_error)},
+                       {"rigid_error_mean", summary.mean(&FrameFigures::rigid_error)},
+                       {"error_mean", summary.mean(&FrameFigures::error)},
+                       {"error_sd", summary.mean(&FrameFigures::deviation)},
+                       {"registered", summary.count(&FrameFigures::is_registered)},
+                       {"rejected", summary.count(&FrameFigures::is_rejected)},
                        {"warnings", end.warnings},
                        {"broken_by", end.error},
                        {"frame_ms", summary.mean_ms()},
@@ -36,10 +41,13 @@ Table summary_table(const std::string& name, const TrackSummary& summary, const 
   };
   const PoseError error = rmse.value_or(PoseError{});
   return {"",
-          {"run", "frames", "tracked", "lost", "mean error mm", "ATE mm", "ATE degrees", "model mm",
-           "frame ms", "frames/s"},
+          {"run", "frames", "tracked", "lost", "registered", "error mm", "SD mm", "ATE mm", "ATE degrees",
+           "model mm", "frame ms", "frames/s"},
           {{{name, std::to_string(summary.frames.size()), std::to_string(summary.count(FrameState::tracked)),
-             std::to_string(summary.count(FrameState::lost)), fmt::format("{:.2f}", summary.mean_error()),
+             std::to_string(summary.count(FrameState::lost)),
+             std::to_string(summary.count(&FrameFigures::is_registered)),
+             fmt::format("{:.2f}", summary.mean(&FrameFigures::error)),
+             fmt::format("{:.2f}", summary.mean(&FrameFigures::deviation)),
              known(rmse.has_value(), "{:.2f}", error.translation),
              known(rmse.has_value(), "{:.3f}", error.rotation),
              known(end.model_error.has_value(), "{:.2f}", end.model_error.value_or(ModelError{}).mean),
@@ -88,7 +96,8 @@ RunArtefacts track_artefacts(const ExperimentRun& run, const TrackSummary& summa
   made.lead =
       fmt::format("{} frames, tracked against a model that they are fused into", summary.frames.size());
   made.tables = {stages_table(summary)};
-  made.series = {series_of(summary, "Error of rigid tracking", "mm", &FrameFigures::mean_error),
+  made.series = {series_of(summary, "Error of rigid tracking", "mm", &FrameFigures::rigid_error),
+                 series_of(summary, "Error", "mm", &FrameFigures::error),
                  series_of(summary, "Points of the model with a match", "share", &FrameFigures::inlier_share),
                  series_of(summary, "Time", "ms", &FrameFigures::total_ms)};
   if (summary.rmse())

@@ -11,7 +11,8 @@ using nlohmann::ordered_json;
 
 constexpr const char* csv_header =
     "frame,time_s,state,x_mm,y_mm,z_mm,samples,inliers,mean_error_mm,conditioning,iterations,total_ms,"
-    "translation_error_mm,rotation_error_deg\n";
+    "translation_error_mm,rotation_error_deg,rigid_error_mean_mm,error_mean_mm,error_sd_mm,registered,"
+    "rejected\n";
 
 /// The rows of [R | t], mm.
 ordered_json rows_of(const Eigen::Isometry3d& pose) {
@@ -32,8 +33,21 @@ ordered_json json_of(const FrameRecord& record, const std::optional<PoseError>& 
                        {"mean_error", pose.mean_error},
                        {"conditioning", pose.conditioning},
                        {"iterations", pose.iterations},
+                       {"rigid_error_mean", record.rigid_error.mean},
+                       {"rigid_error_sd", record.rigid_error.deviation},
+                       {"error_mean", record.error.mean},
+                       {"error_sd", record.error.deviation},
+                       {"matched", record.error.matched},
+                       {"registered", is_registered(record)},
+                       {"rejected", is_rejected(record)},
                        {"total_ms", record.total_ms},
                        {"time_ms", record.time_ms}};
+  if (const auto& registration = record.registration)
+    json["registration"] = {{"reason", registration->reason},
+                            {"iterations", registration->iterations},
+                            {"nodes", registration->nodes},
+                            {"constraints", registration->constraints},
+                            {"folded_cells", registration->folded_cells}};
   if (error) json["error"] = {{"translation", error->translation}, {"rotation", error->rotation}};
   return json;
 }
@@ -41,10 +55,13 @@ ordered_json json_of(const FrameRecord& record, const std::optional<PoseError>& 
 std::string csv_of(const FrameRecord& record, const std::optional<PoseError>& error) {
   const Eigen::Vector3d place = record.camera_from_model.inverse().translation();
   const PoseEstimate& pose = record.pose;
-  return fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.4f},{:.3g},{},{:.3f},{}\n", record.number,
-                     record.time, to_string(record.state), place.x(), place.y(), place.z(), pose.samples,
-                     pose.inliers, pose.mean_error, pose.conditioning, pose.iterations, record.total_ms,
-                     error ? fmt::format("{:.4f},{:.5f}", error->translation, error->rotation) : ",");
+  return fmt::format(
+      "{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.4f},{:.3g},{},{:.3f},{},{:.4f},{:.4f},{:.4f},{:d},{:d}\n",
+      record.number, record.time, to_string(record.state), place.x(), place.y(), place.z(), pose.samples,
+      pose.inliers, pose.mean_error, pose.conditioning, pose.iterations, record.total_ms,
+      error ? fmt::format("{:.4f},{:.5f}", error->translation, error->rotation) : ",",
+      record.rigid_error.mean, record.error.mean, record.error.deviation, is_registered(record),
+      is_rejected(record));
 }
 
 std::string path_of(const std::filesystem::path& folder, std::size_t file) {

@@ -17,7 +17,9 @@ void TrackSummary::add(const FrameRecord& record, const std::optional<PoseError>
   frames.push_back({record.state, static_cast<float>(pose.mean_error), static_cast<float>(share),
                     static_cast<float>(record.total_ms),
                     error ? static_cast<float>(error->translation) : unknown,
-                    error ? static_cast<float>(error->rotation) : unknown});
+                    error ? static_cast<float>(error->rotation) : unknown,
+                    static_cast<float>(record.rigid_error.mean), static_cast<float>(record.error.mean),
+                    static_cast<float>(record.error.deviation), is_registered(record), is_rejected(record)});
   if (record.state != FrameState::tracked || count(FrameState::tracked) < 2) return;
   for (const auto& [stage, time] : record.time_ms) time_ms[stage] += time;
 }
@@ -27,10 +29,15 @@ int TrackSummary::count(FrameState state) const {
                                         [&](const FrameFigures& frame) { return frame.state == state; }));
 }
 
-double TrackSummary::mean_error() const {
+int TrackSummary::count(bool FrameFigures::*flag) const {
+  return static_cast<int>(
+      std::count_if(frames.begin(), frames.end(), [&](const FrameFigures& frame) { return frame.*flag; }));
+}
+
+double TrackSummary::mean(float FrameFigures::*figure) const {
   double sum = 0;
   for (const FrameFigures& frame : frames)
-    if (frame.state == FrameState::tracked) sum += static_cast<double>(frame.mean_error);
+    if (frame.state == FrameState::tracked) sum += static_cast<double>(frame.*figure);
   return sum / std::max(count(FrameState::tracked), 1);
 }
 

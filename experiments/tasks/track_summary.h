@@ -18,6 +18,11 @@ struct TrackSummary {
     float total_ms;
     float translation_error;  ///< mm; NaN where the true pose is not known
     float rotation_error;     ///< degrees, likewise
+    float rigid_error;        ///< mm, mean of TrackingError after rigid tracking alone
+    float error;              ///< mm, likewise after the model was registered non-rigidly, if it was
+    float deviation;          ///< mm, standard deviation of that
+    bool is_registered;       ///< see FrameRecord
+    bool is_rejected;         ///< likewise
   };
   std::vector<FrameFigures> frames;
   StageTimes time_ms;  ///< added up over the frames that mean_ms() is of
@@ -25,7 +30,9 @@ struct TrackSummary {
   void add(const FrameRecord& record, const std::optional<PoseError>& error);
 
   int count(FrameState state) const;
-  double mean_error() const;  ///< mm, over the frames that were tracked; 0 where none was
+  int count(bool FrameFigures::*flag) const;
+  /// Mean of a figure over the frames that were tracked; 0 where none was.
+  double mean(float FrameFigures::*figure) const;
   double mean_ms() const;  ///< over the frames that were tracked but the first, which builds kernels; 0: none
   /// Root mean squares over the frames whose pose was found and is known; none where there is no such.
   std::optional<PoseError> rmse() const;

@@ -1,4 +1,4 @@
-// Kernels over lists of points.
+// Kernels over lists of points. (0, 0, 0) stands for no point.
 
 // The points and normals at some indices, moved rigidly: rotation in x y z, translation in w of the rows.
 kernel void pick(int count, global const int* indices, global const float* points,
@@ -11,4 +11,32 @@ kernel void pick(int count, global const int* indices, global const float* point
   const float3 turned = (float3)(dot(row_x.xyz, p), dot(row_y.xyz, p), dot(row_z.xyz, p));
   vstore3(turned + (float3)(row_x.w, row_y.w, row_z.w), i, picked_points);
   vstore3((float3)(dot(row_x.xyz, n), dot(row_y.xyz, n), dot(row_z.xyz, n)), i, picked_normals);
+}
+
+// The other way round: points and normals go to some indices of others.
+kernel void place(int count, global const int* indices, global const float* points,
+                  global const float* normals, global float* placed_points, global float* placed_normals) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  vstore3(vload3(i, points), indices[i], placed_points);
+  vstore3(vload3(i, normals), indices[i], placed_normals);
+}
+
+// All of them, moved rigidly; where there is none, there is none.
+kernel void move(int count, global const float* points, global const float* normals, float4 row_x,
+                 float4 row_y, float4 row_z, global float* moved_points, global float* moved_normals) {
+  const int i = get_global_id(0);
+  if (i >= count) return;
+  const float3 p = vload3(i, points);
+  const float3 n = vload3(i, normals);
+  const float3 turned = (float3)(dot(row_x.xyz, p), dot(row_y.xyz, p), dot(row_z.xyz, p));
+  const float3 moved = turned + (float3)(row_x.w, row_y.w, row_z.w);
+  vstore3(any(p != 0.0f) ? moved : p, i, moved_points);
+  vstore3((float3)(dot(row_x.xyz, n), dot(row_y.xyz, n), dot(row_z.xyz, n)), i, moved_normals);
+}
+
+// Which of them are points.
+kernel void find(int count, global const float* points, global uchar* found) {
+  const int i = get_global_id(0);
+  if (i < count) found[i] = any(vload3(i, points) != 0.0f);
 }

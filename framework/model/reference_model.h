@@ -17,9 +17,10 @@ class ReferenceModel {
  public:
   virtual ~ReferenceModel() = default;
 
-  /// Fuses a depth map that `camera` saw from where `camera_from_model` (mm) puts the model. Only enqueues.
+  /// Fuses a depth map that `camera` saw from where `camera_from_model` (mm) puts the model, as if `weight`
+  /// frames had shown it. Only enqueues.
   virtual void integrate(const DepthMap& depth, const Camera& camera,
-                         const Eigen::Isometry3d& camera_from_model) = 0;
+                         const Eigen::Isometry3d& camera_from_model, int weight = 1) = 0;
   /// What a camera would see of the model from there, in the window: points and normals in that camera's
   /// frame. Valid until the next call. Only enqueues.
   virtual const SurfaceMap& raycast(const Camera& camera, const PixelWindow& window,

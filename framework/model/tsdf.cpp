@@ -71,8 +71,8 @@ void Tsdf::clear() {
   device_.fill_zero(contents_, sizeof(cl_int) * brick_count(grid_));
 }
 
-void Tsdf::integrate(const DepthMap& depth, const Camera& camera,
-                     const Eigen::Isometry3d& camera_from_model) {
+void Tsdf::integrate(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model,
+                     int weight) {
   check(camera_from_model);
   const PixelWindow& window = depth.window;
   if (window.size() == 0) return;
@@ -91,7 +91,8 @@ void Tsdf::integrate(const DepthMap& depth, const Camera& camera,
   const auto items = static_cast<std::size_t>(device_.work_group_size());
   device_.run("integrate", fuse, fusing_groups * items, items, found_, bricks_of(grid_), placing,
               pinhole(camera), as_argument(window), static_cast<cl_int>(depth.stride), truncation,
-              static_cast<float>(max_weight_), depth.depth.device(device_), distances_, weights_, contents_);
+              static_cast<float>(weight), static_cast<float>(max_weight_), depth.depth.device(device_),
+              distances_, weights_, contents_);
 }
 
 const SurfaceMap& Tsdf::raycast(const Camera& camera, const PixelWindow& window,

@@ -29,8 +29,8 @@ class Tsdf : public ReferenceModel {
   /// greatest_weight. The device must outlive this. Throws DeviceError when it has no room for the voxels.
   Tsdf(Device& device, const TsdfGrid& grid, int max_weight);
 
-  void integrate(const DepthMap& depth, const Camera& camera,
-                 const Eigen::Isometry3d& camera_from_model) override;
+  void integrate(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model,
+                 int weight = 1) override;
   const SurfaceMap& raycast(const Camera& camera, const PixelWindow& window,
                             const Eigen::Isometry3d& camera_from_model) override;
   Mesh mesh() const override;

@@ -100,9 +100,9 @@ Seen depth_at(Lanes u, Lanes v, Truth in_front, int4 window, int stride, float t
   return seen;
 }
 
-// A work-group fuses one brick after another.
+// A work-group fuses one brick after another. The map counts as `shown` frames.
 kernel void fuse(global const int* found, int4 bricks, float16 placing, float4 camera, int4 window,
-                 int stride, float truncation, float max_weight, global const float* depth,
+                 int stride, float truncation, float shown, float max_weight, global const float* depth,
                  global short* distances, global uchar* weights, global int* contents) {
   const int2 pitch = {bricks.x * BRICK_X, bricks.y * BRICK_Y};
   const Lanes scale = STEPS / truncation;
@@ -132,10 +132,10 @@ kernel void fuse(global const int* found, int4 bricks, float16 placing, float4 c
       if (ANY(is_told)) {
         const Lanes weight = LOAD_DISTANCES(weights + at);
         const Lanes told = fmin(ahead, (Lanes)truncation) * scale;
-        const Lanes mean = rint(fma(old, weight, told) / (weight + 1.0f));
+        const Lanes mean = rint(fma(old, weight, told * shown) / (weight + shown));
         now = select(old, select(mean, (Lanes)1, mean == (Lanes)0), is_told);
         STORE_DISTANCES(now, distances + at);
-        STORE_WEIGHTS(select(weight, fmin(weight + 1.0f, (Lanes)max_weight), is_told), weights + at);
+        STORE_WEIGHTS(select(weight, fmin(weight + shown, (Lanes)max_weight), is_told), weights + at);
       }
       any_observed = any_observed || now != (Lanes)0;
       any_inside = any_inside || now < (Lanes)0;

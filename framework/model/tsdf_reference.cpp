@@ -32,13 +32,15 @@ std::optional<float> depth_at(const DepthMap& map, float u, float v, float trunc
   return std::fma(b, lower - upper, upper);
 }
 
-/// One more frame tells that the surface lies `ahead` mm before a voxel.
-void average(float ahead, float truncation, float max_weight, std::int16_t& distance, std::uint8_t& weight) {
+/// So many more frames tell that the surface lies `ahead` mm before a voxel.
+void average(float ahead, float truncation, float shown, float max_weight, std::int16_t& distance,
+             std::uint8_t& weight) {
   const auto known = static_cast<float>(weight);
   const float told = std::min(ahead, truncation) * (static_cast<float>(TsdfGrid::steps) / truncation);
-  const float mean = std::nearbyint(std::fma(static_cast<float>(distance), known, told) / (known + 1));
+  const float mean =
+      std::nearbyint(std::fma(static_cast<float>(distance), known, told * shown) / (known + shown));
   distance = static_cast<std::int16_t>(mean == 0 ? 1 : mean);
-  weight = static_cast<std::uint8_t>(std::min(known + 1, max_weight));
+  weight = static_cast<std::uint8_t>(std::min(known + shown, max_weight));
 }
 
 /// The field of distances on a grid, as rays through it see it.
@@ -155,7 +157,7 @@ std::optional<double> crossing(const Field& field, const Ray& ray, std::array<do
 }  // namespace
 
 void integrate_reference(const TsdfGrid& grid, int max_weight, const DepthMap& depth, const Camera& camera,
-                         const Eigen::Isometry3d& camera_from_model, TsdfVoxels& voxels) {
+                         const Eigen::Isometry3d& camera_from_model, TsdfVoxels& voxels, int weight) {
   const cl_float16 rows = rows_of(camera_from_model * grid.model_from_voxel());
   const cl_float4 pixels = pinhole(camera);
   const auto truncation = static_cast<float>(grid.truncation);
@@ -178,8 +180,8 @@ void integrate_reference(const TsdfGrid& grid, int max_weight, const DepthMap& d
         const float ahead = *seen - z;
         const bool is_told = ahead >= -truncation && (voxels.distances[at] != 0 || ahead < truncation);
         if (is_told)
-          average(ahead, truncation, static_cast<float>(max_weight), voxels.distances[at],
-                  voxels.weights[at]);
+          average(ahead, truncation, static_cast<float>(weight), static_cast<float>(max_weight),
+                  voxels.distances[at], voxels.weights[at]);
       }
     }
   }

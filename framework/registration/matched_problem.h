@@ -14,6 +14,13 @@
 
 namespace pliant {
 
+/// A graph that registration uses instead of the one that its method would build.
+struct GivenGraph {
+  std::vector<int>
+      nodes;            ///< points of the source, ascending; those that no pixel shows are moved, not matched
+  Array<float> affine;  ///< where they start: affine_size numbers each (see warp.h)
+};
+
 /// What non-rigid registration begins with; all of it in one camera frame, and all of it stays as it is.
 struct NonRigidInput {
   const std::string& name;   ///< for messages
@@ -23,6 +30,7 @@ struct NonRigidInput {
   double noise;              ///< of the target's depth before that: standard deviation, mm
   /// Points at rest and where features say that they are in the target; empty without features.
   const PointMatches& features;
+  const GivenGraph* graph = nullptr;  ///< null: that of the method, from the identity
 };
 
 /// The constraints of a problem, which are matched anew before each solve.

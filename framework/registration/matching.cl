@@ -284,7 +284,7 @@ kernel void sum_residuals(int count, global const float* moved, float4 camera, i
   const int chunk = get_global_id(0) * CHUNK;
   const int end = min(chunk + CHUNK, count);
   if (chunk >= count) return;
-  Lanes sum = 0, matched = 0, landed = 0, lost = 0, squares = 0;
+  Lanes sum = 0, matched = 0, landed = 0, lost = 0, robust = 0, squares = 0;
   for (int first = chunk; first < end; first += WIDTH) {
     const Vector p = load_vectors(moved + 3 * first, end - first);
     float values[WIDTH];
@@ -305,10 +305,11 @@ kernel void sum_residuals(int count, global const float* moved, float4 camera, i
     sum += known * fmax(r, (Lanes)0);
     matched += known;
     lost += there - WHERE(is_finite, there);
-    squares += there * counted * counted;
+    robust += there * counted * counted;
+    squares += known * r * r;
   }
   partials[get_global_id(0)] =
-      (float8)(sum_of(sum), sum_of(matched), sum_of(landed), sum_of(lost), sum_of(squares), 0, 0, 0);
+      (float8)(sum_of(sum), sum_of(matched), sum_of(landed), sum_of(lost), sum_of(robust), sum_of(squares), 0, 0);
 }
 
 kernel void total_residual(int count, global const float8* partials, global float8* total) {

@@ -47,7 +47,7 @@ class Loop {
       : method_(method),
         device_(device),
         input_(input),
-        nodes_(timed(times_, "ans", [&] { return method.graph->select_nodes(device, view_of(input)); })),
+        nodes_(timed(times_, "ans", [&] { return select_nodes(); })),
         samples_(timed(times_, "acs", [&] { return method.sampler->select(device, view_of(input)); })),
         follows_all_(!nodes_->is_fixed() || !samples_->is_fixed()),
         history_(method.stopping, method.schedule),
@@ -56,8 +56,10 @@ class Loop {
         matched_(constrain()),
         moved_{followed().points.clone(), followed().normals.clone()},
         meter_(device, *method.correspondence, input.target, moved_.points.size() / 3, method.stopping.cut) {
+    if (input.graph) start_from(input.graph->affine);
     meter_.measure(moved_);
     match_and_make_problem();
+    if (input.graph) problem_->unknowns() = input.graph->affine.clone();
   }
 
   void run(const Observer& observer) {
@@ -74,12 +76,18 @@ class Loop {
   }
 
   NonRigidResult take_result();
+  Deformation take_deformation();
   std::unique_ptr<Problem> take_problem() {
     set_weights();
     return std::move(problem_);
   }
 
  private:
+  std::unique_ptr<NodeSelection> select_nodes() {
+    if (input_.graph) return std::make_unique<FixedSelection<NodeSelection>>(input_.graph->nodes);
+    return method_.graph->select_nodes(device_, view_of(input_));
+  }
+
   static SurfaceView view_of(const NonRigidInput& input) {
     return {input.pixels, input.rest, input.target.camera};
   }
@@ -104,6 +112,14 @@ class Loop {
     if (graph_->edges.empty()) connect(*graph_, times_);
     problem_ = make_problem(device_, method_, input_.features, *graph_, matched_);
     has_pulled_ = false;
+  }
+
+  /// Where a graph that was given has moved the followed points so far.
+  void start_from(const Array<float>& affine) {
+    const Influences& all = graph_->influences;
+    const auto picked =
+        follows_all_ ? Influences{} : pick_influences(device_, all, Array<int>(matched_.points));
+    warp(device_, followed(), follows_all_ ? all : picked, graph_->node_points, affine, moved_);
   }
 
   void bind_solver() { solver_ = method_.solver->bind(*problem_, device_); }
@@ -275,22 +291,21 @@ class Loop {
 
   // --- the end ---
 
-  /// Puts the source where the best iteration led, and finds what is matched there.
+  /// Puts the source where the best iteration led.
   void deform_best() {
     const History::State& best = history_.best();
-    const bool is_there = follows_all_ && shown_ == best.iteration;
-    if (is_there) {
+    is_best_shown_ = follows_all_ && shown_ == best.iteration;
+    if (is_best_shown_) {
       registered_ = std::move(moved_);
     } else {
       registered_ = unwritten(input_.rest);
       warp(device_, input_.rest, best.graph->influences, best.graph->node_points, best.unknowns, registered_);
     }
-    has_match_ = is_there && method_.correspondence->measures_matches()
-                     ? flags(meter_.per_point(), [](float residual) { return residual >= 0; })
-                     : find_matched();
   }
 
-  std::vector<std::uint8_t> find_matched() {
+  std::vector<std::uint8_t> find_matched() const {
+    if (is_best_shown_ && method_.correspondence->measures_matches())
+      return flags(meter_.per_point(), [](float residual) { return residual >= 0; });
     Constraints constraints = unmatched_at(input_.rest.points.clone());
     method_.correspondence->match(device_, registered_, first_indices(input_.pixels.count), input_.target,
                                   constraints);
@@ -317,7 +332,7 @@ class Loop {
   bool has_grown_ = false;            ///< whether the graph is another than at first
   std::optional<std::size_t> shown_;  ///< the iteration that `moved_` was measured after, if it was
   PointSet registered_;               ///< all, at the end
-  std::vector<std::uint8_t> has_match_;
+  bool is_best_shown_ = false;        ///< whether these are what was measured last
   int iterations_ = 0;
   std::string termination_;  ///< empty while the loop goes on
   std::string reason_;
@@ -347,7 +362,7 @@ NonRigidResult Loop::take_result() {
   result.points = unflatten(registered_.points);
   result.normals = unflatten(registered_.normals);
   const History::State& best = history_.best();
-  result.matched = std::move(has_match_);
+  result.matched = find_matched();
   result.node_positions = best.graph->positions;
   result.graph_cells = best.graph->cells;
   result.counts.source_points = static_cast<int>(input_.pixels.count);
@@ -376,6 +391,17 @@ NonRigidResult Loop::take_result() {
   return result;
 }
 
+Deformation Loop::take_deformation() {
+  const History::State& best = history_.best();
+  return {best.graph,
+          best.unknowns.clone(),
+          std::move(registered_),
+          iterations_,
+          static_cast<int>(matched_.points.size()),
+          std::move(termination_),
+          std::move(reason_)};
+}
+
 }  // namespace
 
 NonRigid::NonRigid(const NonRigidMethod& method, Device& device) : method_(method), device_(device) {}
@@ -384,6 +410,12 @@ NonRigidResult NonRigid::run(const NonRigidInput& input, const Observer& observe
   Loop loop(input, method_, device_);
   loop.run(observer);
   return loop.take_result();
+}
+
+Deformation NonRigid::deform(const NonRigidInput& input) const {
+  Loop loop(input, method_, device_);
+  loop.run({});
+  return loop.take_deformation();
 }
 
 std::unique_ptr<Problem> NonRigid::freeze(const NonRigidInput& input) const {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "framework/registration/matched_problem.h"
 #include "framework/registration/nonrigid_result.h"
@@ -25,6 +26,17 @@ struct IterationView {
 /// Called after each outer iteration. What it throws ends the registration and comes through.
 using Observer = std::function<void(const IterationView&)>;
 
+/// Where non-rigid registration led; all on the device.
+struct Deformation {
+  std::shared_ptr<const EmbeddedGraph> graph;
+  Array<float> affine;  ///< its transforms, affine_size numbers a node (see warp.h)
+  PointSet points;      ///< all points of the source, deformed
+  int iterations = 0;
+  int constraints = 0;
+  /// Of NonRigidResult.
+  std::string termination = {}, reason = {};
+};
+
 /// Non-rigid registration [thesis Figure 4.1], bound to a method and a device; both must outlive it. Runs on
 /// any number of frames, one after another; what one run throws leaves it fit for the next.
 class NonRigid {
@@ -35,6 +47,9 @@ class NonRigid {
   /// too little to begin with, NumericalError when the source is not finite. What goes wrong later ends the
   /// loop: the result is then that of the best one before, and `termination` and `reason` say why.
   NonRigidResult run(const NonRigidInput& input, const Observer& observer = {}) const;
+
+  /// The same without a copy to the host.
+  Deformation deform(const NonRigidInput& input) const;
 
   /// The problem of the first outer iteration: graph built, constraints matched once, nothing solved. Solvers
   /// can be compared on it.

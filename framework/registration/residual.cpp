@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::size_t chunk = 256;  // CHUNK in matching.cl
 
+/// From the mean of squares and the mean.
+double deviation_of(double squares, double mean) { return std::sqrt(std::max(0.0, squares - mean * mean)); }
+
 }  // namespace
 
 ResidualMeter::ResidualMeter(Device& device, const Correspondence& correspondence, const SurfaceMap& target,
@@ -40,8 +43,13 @@ Residual ResidualMeter::read() const {
   const auto mean = [](float sum, auto count) {
     return count > 0 ? double{sum} / static_cast<double>(count) : 0.0;
   };
-  return {mean(record[0], record[1]), static_cast<int>(record[1]), static_cast<int>(record[2]),
-          static_cast<int>(record[3]), std::sqrt(mean(record[4], per_point_.size()))};
+  const double average = mean(record[0], record[1]);
+  return {average,
+          static_cast<int>(record[1]),
+          static_cast<int>(record[2]),
+          static_cast<int>(record[3]),
+          std::sqrt(mean(record[4], per_point_.size())),
+          deviation_of(mean(record[5], record[1]), average)};
 }
 
 Residual sum_residuals_reference(const SurfaceMap& target, const Array<float>& moved,
@@ -49,6 +57,7 @@ Residual sum_residuals_reference(const SurfaceMap& target, const Array<float>& m
   Residual residual;
   double sum = 0;
   double robust = 0;
+  double squares = 0;
   for (std::size_t i = 0; i < per_point.size(); ++i) {
     const Eigen::Map<const Eigen::Vector3f> point(moved.host().data() + 3 * i);
     if (!(point.array().abs() < farthest_depth).all()) ++residual.lost;
@@ -56,11 +65,15 @@ Residual sum_residuals_reference(const SurfaceMap& target, const Array<float>& m
         per_point[i] >= 0 ? std::min<double>(double{per_point[i]} * per_point[i], cut * cut) : cut * cut;
     if (per_point[i] >= 0) {
       sum += per_point[i];
+      squares += double{per_point[i]} * per_point[i];
       ++residual.matched;
     }
     if (per_point[i] >= 0 || seen_pixel_reference(target, point)) ++residual.landed;
   }
-  if (residual.matched > 0) residual.mean = sum / residual.matched;
+  if (residual.matched > 0) {
+    residual.mean = sum / residual.matched;
+    residual.deviation = deviation_of(squares / residual.matched, residual.mean);
+  }
   if (!per_point.empty()) residual.robust = std::sqrt(robust / static_cast<double>(per_point.size()));
   return residual;
 }

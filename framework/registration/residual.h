@@ -13,6 +13,7 @@ struct Residual {
   /// mm; root mean square over all points, where one without such a match or with a longer residual counts as
   /// the meter's cut: what rises when matches are lost, and heeds no outlier more than that.
   double robust = 0;
+  double deviation = 0;  ///< mm, standard deviation of what `mean` is of
 };
 
 /// Measures residuals on the device.

@@ -18,4 +18,12 @@ std::string to_string(FrameState state) {
 
 bool has_pose(FrameState state) { return state == FrameState::started || state == FrameState::tracked; }
 
+bool is_registered(const FrameRecord& record) {
+  return record.registration && !record.registration->is_rejected;
+}
+
+bool is_rejected(const FrameRecord& record) {
+  return record.registration && record.registration->is_rejected;
+}
+
 }  // namespace pliant

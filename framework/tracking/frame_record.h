@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 
 #include "framework/core/stopwatch.h"
@@ -22,6 +23,27 @@ std::string to_string(FrameState state);
 /// Whether the pose of a frame was found.
 bool has_pose(FrameState state);
 
+/// How far the model, where it was found, lies from a frame: from each of its points to the one that the
+/// frame has at the same pixel, over those whose match is accepted [thesis 4.2].
+struct TrackingError {
+  double mean = 0;       ///< mm
+  double deviation = 0;  ///< mm, standard deviation
+  int matched = 0;       ///< points that it is over
+  /// mm; root mean square over all points in view, one without an accepted match or further away counting as
+  /// the cut of the method's stopping rule.
+  double robust = 0;
+};
+
+/// What registering the model non-rigidly to a frame came to.
+struct RegistrationRecord {
+  bool is_rejected = false;  ///< the model stays as it was
+  std::string reason;        ///< why it is rejected; else why the iterations ended
+  int iterations = 0;
+  int nodes = 0;
+  int constraints = 0;
+  int folded_cells = 0;  ///< of the view, between four neighbouring points, turned inside out
+};
+
 /// What tracking a frame came to.
 struct FrameRecord {
   int number = 0;   ///< of the frame in its stream, the first is 1
@@ -29,9 +51,17 @@ struct FrameRecord {
   FrameState state = FrameState::waiting;
   std::string reason;  ///< why it is lost or waiting; else empty
   Eigen::Isometry3d camera_from_model = Eigen::Isometry3d::Identity();  ///< mm; the last one found
-  PoseEstimate pose;    ///< of a frame that was tracked or lost
+  PoseEstimate pose;          ///< of a frame that was tracked or lost
+  TrackingError rigid_error;  ///< of a frame that was tracked: at that pose
+  TrackingError error;        ///< the same after the model was registered non-rigidly, if it was
+  std::optional<RegistrationRecord>
+      registration;     ///< of a frame that the policy wants the model registered to
   double total_ms = 0;  ///< from the frame's images to where the next frame may come
   StageTimes time_ms;   ///< of the host by stage, and of the device while it measures them
 };
+
+/// Whether the model was registered non-rigidly to the frame, and has taken that up; or not, as it was no better.
+bool is_registered(const FrameRecord& record);
+bool is_rejected(const FrameRecord& record);
 
 }  // namespace pliant

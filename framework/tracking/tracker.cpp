@@ -59,6 +59,8 @@ bool Tracker::find_object(const Frame& frame, FrameRecord& record) {
   } else {
     region_ = *std::move(region);
     preprocessor_.emplace(device_, rig_, method_.acquisition, region_.window);
+    meter_.emplace(device_, *method_.error, seen(), method_.deformation.stopping.cut);
+    moved_view_ = no_points(device_, region_.window.size());
   }
   return record.reason.empty();
 }
@@ -71,7 +73,7 @@ void Tracker::preprocess(const Frame& frame) {
 }
 
 void Tracker::begin_model(FrameRecord& record) {
-  auto model = method_.model->make(device_, seen());
+  auto model = method_.update->make(device_, method_.model->make(device_, seen()));
   fuse_into(*model);
   model_ = std::move(model);
   record.state = FrameState::started;
@@ -85,13 +87,43 @@ void Tracker::follow(FrameRecord& record) {
   record.reason = record.pose.reason;
   if (record.pose.failed) return;
   camera_from_model_ = record.pose.target_from_source * camera_from_model_;
+  register_model(record);
   fuse_into(*model_);
+  if (followed_pixels_.empty() && method_.followed.from > 0 && count_ >= method_.followed.from)
+    choose_followed();
+}
+
+/// Deforms the model to the frame where the policy takes its error for the sign of a deformation [4.8].
+void Tracker::register_model(FrameRecord& record) {
+  move_points(device_, model_view_->map, record.pose.target_from_source, moved_view_);
+  record.rigid_error = record.error = meter_->measure(moved_view_);
+  if (!method_.policy->registers(record.rigid_error, count_)) return;
+  const Stopwatch watch;
+  const SurfaceMap& view = model_->view(rig_.depth, seen().window, camera_from_model_);
+  ModelRegistration(device_, method_.deformation)
+      .run(*model_, view, seen(), camera_from_model_, *meter_, record);
+  record.time_ms["registration"] = watch.milliseconds();
 }
 
 /// Fuses the frame as it was seen, unfiltered, into the model, and looks at that from its camera [3.2].
-void Tracker::fuse_into(ReferenceModel& model) {
+void Tracker::fuse_into(DeformingModel& model) {
   model.integrate(preprocessor_->depth(), rig_.depth, camera_from_model_);
-  model_view_ = &model.raycast(rig_.depth, seen().window, camera_from_model_);
+  model_view_ = &model.view(rig_.depth, seen().window, camera_from_model_);
+}
+
+/// The model's surface where the frame that began it showed it: there the camera was the model's frame.
+void Tracker::choose_followed() {
+  const PixelWindow window = seen().window;
+  const SurfaceMap& view = model_->view(rig_.depth, window, Eigen::Isometry3d::Identity());
+  std::vector<int> chosen;
+  for (const int offset : indices_of_points(device_, view.map)) {
+    const Eigen::Vector2i pixel(window.left + offset % window.width, window.top + offset / window.width);
+    if (pixel.x() % method_.followed.step != 0 || pixel.y() % method_.followed.step != 0) continue;
+    chosen.push_back(offset);
+    followed_pixels_.push_back(pixel);
+  }
+  model_->follow(pick_points(device_, view.map, Array<int>(chosen)).points);
+  model_view_ = &model_->view(rig_.depth, window, camera_from_model_);
 }
 
 }  // namespace pliant

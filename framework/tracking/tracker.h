@@ -2,18 +2,21 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "framework/device/device.h"
 #include "framework/geometry/frame.h"
 #include "framework/geometry/rig.h"
 #include "framework/imaging/preprocessor.h"
 #include "framework/tracking/frame_record.h"
+#include "framework/tracking/model_registration.h"
 #include "framework/tracking/tracking_method.h"
 
 namespace pliant {
 
 /// Tracks what a rig sees, frame by frame, against a model that the frames are fused into [thesis chapter 3,
-/// Figure 3.1]. The same frames, method and device give the same bits.
+/// Figure 3.1] and that is deformed where rigid motion does not explain them [4.8]. The same frames, method
+/// and device give the same bits.
 ///
 /// The model is begun with the first frame that shows the object; the region where the segmentation finds it
 /// stays as it is from then on. Where the pose of a frame is not found, the next one is looked for from the
@@ -33,14 +36,19 @@ class Tracker {
   const SurfaceMap& seen() const { return preprocessor_->surface(); }
   /// What that camera would see of the model at the last pose that was found.
   const SurfaceMap& model_view() const { return *model_view_; }
-  const ReferenceModel& model() const { return *model_; }
+  const DeformingModel& model() const { return *model_; }
+  /// Of the points that are followed, the pixel of the frame that began the model where each was seen; none
+  /// before they are chosen. The model tells where they are.
+  const std::vector<Eigen::Vector2i>& followed_pixels() const { return followed_pixels_; }
 
  private:
   bool find_object(const Frame& frame, FrameRecord& record);
   void preprocess(const Frame& frame);
   void begin_model(FrameRecord& record);
   void follow(FrameRecord& record);
-  void fuse_into(ReferenceModel& model);
+  void register_model(FrameRecord& record);
+  void fuse_into(DeformingModel& model);
+  void choose_followed();
 
   const TrackingMethod& method_;
   Rig rig_;
@@ -48,8 +56,11 @@ class Tracker {
   Region region_;                             // once it is known
   std::optional<Preprocessor> preprocessor_;  // likewise
   std::unique_ptr<PoseEstimator> pose_;
-  std::unique_ptr<ReferenceModel> model_;
+  std::optional<TrackingErrorMeter> meter_;  // of what that sees
+  std::unique_ptr<DeformingModel> model_;
   const SurfaceMap* model_view_ = nullptr;
+  PointSet moved_view_;  // to the pose of the frame
+  std::vector<Eigen::Vector2i> followed_pixels_;
   Eigen::Isometry3d camera_from_model_ = Eigen::Isometry3d::Identity();
   int count_ = 0;  // of frames
 };

@@ -1,6 +1,24 @@
 #include "framework/tracking/tracking_method.h"
 
 namespace pliant {
+namespace {
+
+ParameterTable followed_table() {
+  const FollowedPoints defaults;
+  return {integer("from", defaults.from)
+              .range(0, 1e9)
+              .doc("Number of the frame after which they are chosen; 0: none is followed"),
+          integer("step", defaults.step)
+              .unit("pixel")
+              .range(1, 64)
+              .doc("Between them, in the view of the frame that began the model")};
+}
+
+FollowedPoints make_followed(const Parameters& section) {
+  return {static_cast<int>(section.integer("from")), static_cast<int>(section.integer("step"))};
+}
+
+}  // namespace
 
 std::vector<Parameter> tracking_rows() {
   return {
@@ -12,6 +30,12 @@ std::vector<Parameter> tracking_rows() {
       component("segmentation", Segmentation::kind, "none").doc("What of the frames is tracked [3.1]"),
       component("pose", PoseEstimatorKind::kind, "icp_projective")
           .doc("How the model is found again in each frame that is tracked [3.3]"),
+      component("policy", Policy::kind, "rigid_only")
+          .doc("When the model is registered non-rigidly to such a frame [4.8]"),
+      component("update", ModelUpdate::kind, "reintegration").doc("How it takes up what comes of that [4.8]"),
+      component("tracking_error", Correspondence::kind, "projective")
+          .doc("What counts as matched where the model's distance to a frame is measured"),
+      group("followed", followed_table()).doc("Points of the model that are followed wherever it goes"),
   };
 }
 
@@ -19,7 +43,12 @@ TrackingMethod make_tracking_method(const Parameters& experiment, const Registry
   return {make_acquisition(experiment.section("acquisition"), registry),
           registry.make<Segmentation>(experiment.section("segmentation")),
           registry.make<PoseEstimatorKind>(experiment.section("pose")),
-          registry.make<ModelKind>(experiment.section("model"))};
+          registry.make<ModelKind>(experiment.section("model")),
+          registry.make<Policy>(experiment.section("policy")),
+          make_nonrigid_method(experiment, registry),
+          registry.make<ModelUpdate>(experiment.section("update")),
+          registry.make<Correspondence>(experiment.section("tracking_error")),
+          make_followed(experiment.section("followed"))};
 }
 
 }  // namespace pliant

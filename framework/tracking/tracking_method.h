@@ -6,10 +6,19 @@
 #include "framework/core/registry.h"
 #include "framework/imaging/preprocessor.h"
 #include "framework/imaging/segmentation.h"
+#include "framework/model/deforming_model.h"
 #include "framework/model/reference_model.h"
 #include "framework/pose/pose_estimator.h"
+#include "framework/registration/nonrigid_method.h"
+#include "framework/tracking/policy.h"
 
 namespace pliant {
+
+/// Which points of the model are followed wherever its surface goes.
+struct FollowedPoints {
+  int from = 0;  ///< number of the frame after which they are chosen; 0: none is
+  int step = 2;  ///< pixels between them, in u and v, in the view of the frame that began the model
+};
 
 /// How the frames of a stream are tracked [thesis chapter 3].
 struct TrackingMethod {
@@ -17,6 +26,11 @@ struct TrackingMethod {
   std::unique_ptr<Segmentation> segmentation;
   std::unique_ptr<PoseEstimatorKind> pose;
   std::unique_ptr<ModelKind> model;
+  std::unique_ptr<Policy> policy;
+  NonRigidMethod deformation;  ///< how the model is registered to frames when the policy wants it
+  std::unique_ptr<ModelUpdate> update;
+  std::unique_ptr<Correspondence> error;  ///< between the model and a frame
+  FollowedPoints followed;
 };
 
 /// The rows of an experiment file that describe it. An experiment tracks where it has a `model`.

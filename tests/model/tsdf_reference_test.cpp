@@ -51,16 +51,18 @@ class TsdfKernels : public ::testing::TestWithParam<DeviceOptions> {
 INSTANTIATE_TEST_SUITE_P(Shapes, TsdfKernels, ::testing::ValuesIn(test::device_shapes));
 
 TEST_P(TsdfKernels, FuseTheSameBitsAsTheReference) {
-  constexpr int max_weight = 3;  // reached on the way
+  constexpr int max_weight = 4;  // reached on the way
   Tsdf tsdf(device_, kGrid, max_weight);
   TsdfVoxels expected = tsdf.read();
   EXPECT_EQ(std::count(expected.distances.begin(), expected.distances.end(), 0),
             static_cast<std::ptrdiff_t>(kGrid.voxels()));
+  int weight = 1;
   for (const View& view : views()) {
     const DepthMap map(view.frame);
-    tsdf.integrate(map, kCamera, view.camera_from_model);
+    tsdf.integrate(map, kCamera, view.camera_from_model, weight);
     const TsdfVoxels before = expected;
-    integrate_reference(kGrid, max_weight, map, kCamera, view.camera_from_model, expected);
+    integrate_reference(kGrid, max_weight, map, kCamera, view.camera_from_model, expected, weight);
+    weight = 3 - weight;
     const TsdfVoxels fused = tsdf.read();
     EXPECT_TRUE(fused.distances == expected.distances);
     EXPECT_TRUE(fused.weights == expected.weights);
