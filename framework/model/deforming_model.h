@@ -29,7 +29,9 @@ struct ModelDeformation {
   const Array<float>& affine;  ///< affine_size numbers a node
   const SurfaceMap& moved;     ///< the points, deformed, one a pixel of the view's window
   int nearest_nodes = 4;       ///< k of [Eq. 4.1]
-  Eigen::Isometry3d camera_from_model = Eigen::Isometry3d::Identity();  ///< mm
+  Eigen::Isometry3d camera_from_model = Eigen::Isometry3d::Identity();  ///< mm, of the view that was deformed
+  /// Where the model is after it: what all of the surface does is no deformation.
+  Eigen::Isometry3d camera_from_model_after = Eigen::Isometry3d::Identity();
 };
 
 /// A reference model that takes up how its surface deforms [thesis 4.8]. Its frame of reference is that of

@@ -54,7 +54,7 @@ void Reintegration::deform(const ModelDeformation& deformation) {
   const SurfaceMap& moved = deformation.moved;
   if (!(drawn_.window == moved.window)) drawn_ = DepthMap(moved.window);
   draw_depth(device_, moved, drawn_);
-  model_->integrate(drawn_, moved.camera, deformation.camera_from_model, weight_);
+  model_->integrate(drawn_, moved.camera, deformation.camera_from_model_after, weight_);
   if (!followed_.empty()) move_followed(deformation);
 }
 
@@ -69,7 +69,7 @@ void Reintegration::move_followed(const ModelDeformation& deformation) {
   const Influences influences =
       compute_influences(device_, seen.points, graph.positions, deformation.nearest_nodes);
   warp(device_, seen, influences, graph.node_points, deformation.affine, points);
-  move_points(device_, points, deformation.camera_from_model.inverse(), seen);
+  move_points(device_, points, deformation.camera_from_model_after.inverse(), seen);
   followed_ = std::move(seen.points);
 }
 

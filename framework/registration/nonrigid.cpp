@@ -55,9 +55,9 @@ class Loop {
         graph_(make_graph()),
         matched_(constrain()),
         moved_{followed().points.clone(), followed().normals.clone()},
-        meter_(device, *method.correspondence, input.target, moved_.points.size() / 3, method.stopping.cut) {
+        meter_(device, *method.correspondence, moved_.points.size() / 3, method.stopping.cut) {
     if (input.graph) start_from(input.graph->affine);
-    meter_.measure(moved_);
+    meter_.measure(moved_, input_.target);
     match_and_make_problem();
     if (input.graph) problem_->unknowns() = input.graph->affine.clone();
   }
@@ -72,7 +72,6 @@ class Loop {
       if (has_adapted) renew();
     }
     history_.close();
-    deform_best();
   }
 
   NonRigidResult take_result();
@@ -191,7 +190,7 @@ class Loop {
       solver_->solve();
       shown_.reset();
       update_source();
-      meter_.measure(moved_);
+      meter_.measure(moved_, input_.target);
       const Residual residual = meter_.read();
       summaries_.push_back(solver_->summaries().back());
       if (has_failed(summaries_.back()))
@@ -291,23 +290,20 @@ class Loop {
 
   // --- the end ---
 
-  /// Puts the source where the best iteration led.
-  void deform_best() {
-    const History::State& best = history_.best();
-    is_best_shown_ = follows_all_ && shown_ == best.iteration;
-    if (is_best_shown_) {
-      registered_ = std::move(moved_);
-    } else {
-      registered_ = unwritten(input_.rest);
-      warp(device_, input_.rest, best.graph->influences, best.graph->node_points, best.unknowns, registered_);
-    }
+  /// Puts the source where an iteration led.
+  PointSet deformed_to(const History::State& state) {
+    is_returned_shown_ = follows_all_ && shown_ == state.iteration;
+    if (is_returned_shown_) return std::move(moved_);
+    PointSet points = unwritten(input_.rest);
+    warp(device_, input_.rest, state.graph->influences, state.graph->node_points, state.unknowns, points);
+    return points;
   }
 
-  std::vector<std::uint8_t> find_matched() const {
-    if (is_best_shown_ && method_.correspondence->measures_matches())
+  std::vector<std::uint8_t> find_matched(const PointSet& registered) const {
+    if (is_returned_shown_ && method_.correspondence->measures_matches())
       return flags(meter_.per_point(), [](float residual) { return residual >= 0; });
     Constraints constraints = unmatched_at(input_.rest.points.clone());
-    method_.correspondence->match(device_, registered_, first_indices(input_.pixels.count), input_.target,
+    method_.correspondence->match(device_, registered, first_indices(input_.pixels.count), input_.target,
                                   constraints);
     return flags(constraints.confidence, [](float confidence) { return confidence > 0; });
   }
@@ -331,8 +327,7 @@ class Loop {
   bool has_pulled_ = false;           ///< whether a constraint of the present problem had a match
   bool has_grown_ = false;            ///< whether the graph is another than at first
   std::optional<std::size_t> shown_;  ///< the iteration that `moved_` was measured after, if it was
-  PointSet registered_;               ///< all, at the end
-  bool is_best_shown_ = false;        ///< whether these are what was measured last
+  bool is_returned_shown_ = false;    ///< whether what is returned is what was measured last
   int iterations_ = 0;
   std::string termination_;  ///< empty while the loop goes on
   std::string reason_;
@@ -359,10 +354,11 @@ bool is_waited_for(const std::string& stage) { return stage == "ans" || stage ==
 
 NonRigidResult Loop::take_result() {
   NonRigidResult result;
-  result.points = unflatten(registered_.points);
-  result.normals = unflatten(registered_.normals);
   const History::State& best = history_.best();
-  result.matched = find_matched();
+  const PointSet registered = deformed_to(best);
+  result.points = unflatten(registered.points);
+  result.normals = unflatten(registered.normals);
+  result.matched = find_matched(registered);
   result.node_positions = best.graph->positions;
   result.graph_cells = best.graph->cells;
   result.counts.source_points = static_cast<int>(input_.pixels.count);
@@ -392,10 +388,10 @@ NonRigidResult Loop::take_result() {
 }
 
 Deformation Loop::take_deformation() {
-  const History::State& best = history_.best();
-  return {best.graph,
-          best.unknowns.clone(),
-          std::move(registered_),
+  const History::State& last = history_.last_state();
+  return {last.graph,
+          last.unknowns.clone(),
+          deformed_to(last),
           iterations_,
           static_cast<int>(matched_.points.size()),
           std::move(termination_),

@@ -26,7 +26,7 @@ struct IterationView {
 /// Called after each outer iteration. What it throws ends the registration and comes through.
 using Observer = std::function<void(const IterationView&)>;
 
-/// Where non-rigid registration led; all on the device.
+/// Where the last iteration of non-rigid registration led, be it the best or not; all on the device.
 struct Deformation {
   std::shared_ptr<const EmbeddedGraph> graph;
   Array<float> affine;  ///< its transforms, affine_size numbers a node (see warp.h)
@@ -48,7 +48,8 @@ class NonRigid {
   /// loop: the result is then that of the best one before, and `termination` and `reason` say why.
   NonRigidResult run(const NonRigidInput& input, const Observer& observer = {}) const;
 
-  /// The same without a copy to the host.
+  /// Without a copy to the host, and without a choice among the iterations: who follows a surface judges by
+  /// more than one matching.
   Deformation deform(const NonRigidInput& input) const;
 
   /// The problem of the first outer iteration: graph built, constraints matched once, nothing solved. Solvers

@@ -15,30 +15,26 @@ double deviation_of(double squares, double mean) { return std::sqrt(std::max(0.0
 
 }  // namespace
 
-ResidualMeter::ResidualMeter(Device& device, const Correspondence& correspondence, const SurfaceMap& target,
-                             std::size_t point_count, double cut)
+ResidualSum::ResidualSum(Device& device, std::size_t point_count, double cut)
     : device_(&device),
-      correspondence_(&correspondence),
-      target_(&target),
+      count_(point_count),
       chunks_((point_count + chunk - 1) / chunk),
       cut_(static_cast<float>(cut)),
-      per_point_(point_count),
       partials_(device.allocate(chunks_ * sizeof(cl_float8))),
       total_(std::size_t{8}) {}
 
-void ResidualMeter::measure(const PointSet& moved) {
+void ResidualSum::add_up(const Array<float>& residuals, const PointSet& moved, const SurfaceMap& target) {
   auto sum = matching_kernel(*device_, "sum_residuals");
   auto total = matching_kernel(*device_, "total_residual");
-  correspondence_->measure(*device_, moved, *target_, per_point_);
-  device_->run("residual", sum, chunks_, 1, static_cast<cl_int>(per_point_.size()),
-               moved.points.device(*device_), pinhole(target_->camera), frame_of(*target_),
-               target_->points().device(*device_), per_point_.device(*device_), cut_, partials_);
+  device_->run("residual", sum, chunks_, 1, static_cast<cl_int>(count_), moved.points.device(*device_),
+               pinhole(target.camera), frame_of(target), target.points().device(*device_),
+               residuals.device(*device_), cut_, partials_);
   device_->run("residual", total, 1, 1, static_cast<cl_int>(chunks_), partials_,
                total_.write_device(*device_));
   total_.fetch();
 }
 
-Residual ResidualMeter::read() const {
+Residual ResidualSum::read() const {
   const std::vector<float>& record = total_.host();
   const auto mean = [](float sum, auto count) {
     return count > 0 ? double{sum} / static_cast<double>(count) : 0.0;
@@ -48,7 +44,7 @@ Residual ResidualMeter::read() const {
           static_cast<int>(record[1]),
           static_cast<int>(record[2]),
           static_cast<int>(record[3]),
-          std::sqrt(mean(record[4], per_point_.size())),
+          std::sqrt(mean(record[4], count_)),
           deviation_of(mean(record[5], record[1]), average)};
 }
 

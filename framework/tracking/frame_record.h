@@ -29,9 +29,6 @@ struct TrackingError {
   double mean = 0;       ///< mm
   double deviation = 0;  ///< mm, standard deviation
   int matched = 0;       ///< points that it is over
-  /// mm; root mean square over all points in view, one without an accepted match or further away counting as
-  /// the cut of the method's stopping rule.
-  double robust = 0;
 };
 
 /// What registering the model non-rigidly to a frame came to.
@@ -60,7 +57,8 @@ struct FrameRecord {
   StageTimes time_ms;   ///< of the host by stage, and of the device while it measures them
 };
 
-/// Whether the model was registered non-rigidly to the frame, and has taken that up; or not, as it was no better.
+/// Whether the model was registered non-rigidly to the frame, and has taken that up; or not, as it was no
+/// better.
 bool is_registered(const FrameRecord& record);
 bool is_rejected(const FrameRecord& record);
 

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/deformation/warp.h"
 #include "framework/geometry/pixel_index.h"
 #include "framework/tracking/folded_cells.h"
 
@@ -16,6 +18,9 @@ namespace {
 
 /// Of the matched points, how many cells may be turned inside out: the noise at a rim folds some.
 constexpr double most_folded_share = 0.01;
+
+/// Of the matches before, how many must be left: losing those that fit worst is no gain.
+constexpr double least_kept_matches = 0.98;
 
 /// What is registered: the points of a map, and behind them those of a graph that it must use.
 struct Source {
@@ -53,27 +58,62 @@ Source source_of(Device& device, DeformationStart start) {
 }
 
 std::string why_rejected(const RegistrationRecord& registration, const TrackingError& before,
-                         const TrackingError& after) {
+                         const TrackingError& after, double min_gain) {
   if (registration.folded_cells > most_folded_share * after.matched)
     return fmt::format("{} cells of the surface are folded", registration.folded_cells);
-  if (!(after.robust <= before.robust))
-    return fmt::format("the model would lie further from the frame: {:.2f} instead of {:.2f} mm (robust)",
-                       after.robust, before.robust);
+  if (after.matched < least_kept_matches * before.matched)
+    return fmt::format("only {} of {} points would still match", after.matched, before.matched);
+  if (!(after.mean <= (1 - min_gain) * before.mean))
+    return fmt::format("the error would go from {:.3f} to {:.3f} mm", before.mean, after.mean);
   return {};
 }
 
 }  // namespace
 
-TrackingError TrackingErrorMeter::measure(const PointSet& points) {
-  meter_.measure(points);
-  const Residual residual = meter_.read();
-  return {residual.mean, residual.deviation, residual.matched, residual.robust};
+namespace {
+
+/// The rigid motion of least weighted squares [Kabsch 1976].
+Eigen::Isometry3d fitted_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
+                                const Eigen::VectorXd& weights) {
+  const Eigen::Vector3d middle_from = from * weights / weights.sum();
+  const Eigen::Vector3d middle_to = to * weights / weights.sum();
+  const Eigen::Matrix3d spread =
+      (to.colwise() - middle_to) * weights.asDiagonal() * (from.colwise() - middle_from).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  motion.translation() = middle_to - motion.linear() * middle_from;
+  return motion;
 }
 
-void ModelRegistration::run(DeformingModel& model, const SurfaceMap& view, const SurfaceMap& seen,
-                            const Eigen::Isometry3d& camera_from_model, TrackingErrorMeter& meter,
-                            FrameRecord& record) const {
-  record.rigid_error = record.error = meter.measure(view.map);
+}  // namespace
+
+Eigen::Isometry3d common_motion(const EmbeddedGraph& graph, const Array<float>& affine) {
+  constexpr int iterations = 10;
+  constexpr double least_distance = 0.1;  // mm: what is nearer counts as being there
+  const auto count = static_cast<Eigen::Index>(graph.positions.size());
+  Eigen::Matrix3Xd from(3, count);
+  Eigen::Matrix3Xd to(3, count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    from.col(j) = graph.positions[static_cast<std::size_t>(j)].cast<double>();
+    to.col(j) = from.col(j) +
+                Eigen::Map<const Eigen::Vector3f>(affine.host().data() + affine_size * j + 9).cast<double>();
+  }
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(count);
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    motion = fitted_motion(from, to, weights);
+    const Eigen::Matrix3Xd moved = (motion.linear() * from).colwise() + motion.translation();
+    weights = (moved - to).colwise().norm().transpose().cwiseMax(least_distance).cwiseInverse();
+  }
+  return motion;
+}
+
+Eigen::Isometry3d ModelRegistration::run(DeformingModel& model, const SurfaceMap& view,
+                                         const SurfaceMap& seen, const Eigen::Isometry3d& camera_from_model,
+                                         TrackingErrorMeter& meter, FrameRecord& record) const {
+  record.rigid_error = record.error = meter.measure(view.map, seen);
   RegistrationRecord& registration = record.registration.emplace();
   const auto reject = [&](const std::string& reason) {
     registration.is_rejected = true;
@@ -89,22 +129,27 @@ void ModelRegistration::run(DeformingModel& model, const SurfaceMap& view, const
     Deformation deformation = NonRigid(method_, device_).deform(input);
     SurfaceMap moved(view.camera, view.window, no_points(device_, view.window.size()));
     place_points(device_, deformation.points, Array<int>(source.offsets), moved.map);
-    const TrackingError after = meter.measure(moved.map);
+    const TrackingError after = meter.measure(moved.map, seen);
     registration.iterations = deformation.iterations;
     registration.nodes = static_cast<int>(deformation.graph->nodes.size());
     registration.constraints = deformation.constraints;
     registration.folded_cells = count_folded_cells(device_, moved);
-    registration.reason = why_rejected(registration, record.rigid_error, after);
+    registration.reason = why_rejected(registration, record.rigid_error, after, min_gain_);
     registration.is_rejected = !registration.reason.empty();
-    if (registration.is_rejected) return;
+    if (registration.is_rejected) return camera_from_model;
     registration.reason = deformation.reason.empty() ? deformation.termination : deformation.reason;
-    model.deform({*deformation.graph, deformation.affine, moved, method_.nearest_nodes, camera_from_model});
+    const Eigen::Isometry3d pose_after =
+        common_motion(*deformation.graph, deformation.affine) * camera_from_model;
+    model.deform({*deformation.graph, deformation.affine, moved, method_.nearest_nodes, camera_from_model,
+                  pose_after});
     record.error = after;
+    return pose_after;
   } catch (const DataError& error) {
     reject(error.what());
   } catch (const NumericalError& error) {
     reject(error.what());
   }
+  return camera_from_model;
 }
 
 }  // namespace pliant

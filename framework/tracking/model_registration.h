@@ -5,41 +5,35 @@
 #include "framework/device/device.h"
 #include "framework/model/deforming_model.h"
 #include "framework/registration/nonrigid.h"
-#include "framework/registration/residual.h"
 #include "framework/tracking/frame_record.h"
+#include "framework/tracking/tracking_error.h"
 
 namespace pliant {
-
-/// How far maps of a window lie from a frame. Bound to what the frames show, which changes from frame to
-/// frame.
-class TrackingErrorMeter {
- public:
-  /// All must outlive this. `seen`: over the window. `cut`: mm, of TrackingError::robust.
-  TrackingErrorMeter(Device& device, const Correspondence& correspondence, const SurfaceMap& seen, double cut)
-      : meter_(device, correspondence, seen, seen.window.size(), cut) {}
-
-  /// Of a point a pixel of the window, in the frame of its camera. Waits for the device.
-  TrackingError measure(const PointSet& points);
-
- private:
-  ResidualMeter meter_;
-};
 
 /// Registers a deforming model non-rigidly to frames [thesis 4.8].
 class ModelRegistration {
  public:
-  /// All must outlive this.
-  ModelRegistration(Device& device, const NonRigidMethod& method) : device_(device), method_(method) {}
+  /// Both must outlive this. `min_gain`: share by which the error must fall for what comes out to be kept.
+  ModelRegistration(Device& device, const NonRigidMethod& method, double min_gain)
+      : device_(device), method_(method), min_gain_(min_gain) {}
 
   /// Deforms the model to what a frame shows, `seen`; `view`: the last one of the model, from there. What
   /// comes out is rejected, and the model stays as it was, when it is not finite, lies further from the frame
-  /// than before, or folds the surface. Writes `registration` and both errors of the record.
-  void run(DeformingModel& model, const SurfaceMap& view, const SurfaceMap& seen,
-           const Eigen::Isometry3d& camera_from_model, TrackingErrorMeter& meter, FrameRecord& record) const;
+  /// than before, or folds the surface. Writes `registration` and both errors of the record. Gives where the
+  /// model is after it: what most of the surface does alike is motion, the rest deformation.
+  Eigen::Isometry3d run(DeformingModel& model, const SurfaceMap& view, const SurfaceMap& seen,
+                        const Eigen::Isometry3d& camera_from_model, TrackingErrorMeter& meter,
+                        FrameRecord& record) const;
 
  private:
   Device& device_;
   const NonRigidMethod& method_;
+  double min_gain_;
 };
+
+/// The rigid motion (mm) that the nodes of a graph have in common: of least absolute distance from where
+/// `affine` (affine_size numbers each) moves them, so that those which deform do not count for more than
+/// their number.
+Eigen::Isometry3d common_motion(const EmbeddedGraph& graph, const Array<float>& affine);
 
 }  // namespace pliant

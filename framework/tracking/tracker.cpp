@@ -59,7 +59,7 @@ bool Tracker::find_object(const Frame& frame, FrameRecord& record) {
   } else {
     region_ = *std::move(region);
     preprocessor_.emplace(device_, rig_, method_.acquisition, region_.window);
-    meter_.emplace(device_, *method_.error, seen(), method_.deformation.stopping.cut);
+    meter_.emplace(device_, method_.error, region_.window.size());
     moved_view_ = no_points(device_, region_.window.size());
   }
   return record.reason.empty();
@@ -95,13 +95,14 @@ void Tracker::follow(FrameRecord& record) {
 
 /// Deforms the model to the frame where the policy takes its error for the sign of a deformation [4.8].
 void Tracker::register_model(FrameRecord& record) {
+  if (!method_.policy) return;
   move_points(device_, model_view_->map, record.pose.target_from_source, moved_view_);
-  record.rigid_error = record.error = meter_->measure(moved_view_);
+  record.rigid_error = record.error = meter_->measure(moved_view_, seen());
   if (!method_.policy->registers(record.rigid_error, count_)) return;
   const Stopwatch watch;
   const SurfaceMap& view = model_->view(rig_.depth, seen().window, camera_from_model_);
-  ModelRegistration(device_, method_.deformation)
-      .run(*model_, view, seen(), camera_from_model_, *meter_, record);
+  camera_from_model_ = ModelRegistration(device_, method_.deformation, method_.error.min_gain)
+                           .run(*model_, view, seen(), camera_from_model_, *meter_, record);
   record.time_ms["registration"] = watch.milliseconds();
 }
 

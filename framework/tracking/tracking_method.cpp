@@ -30,11 +30,14 @@ std::vector<Parameter> tracking_rows() {
       component("segmentation", Segmentation::kind, "none").doc("What of the frames is tracked [3.1]"),
       component("pose", PoseEstimatorKind::kind, "icp_projective")
           .doc("How the model is found again in each frame that is tracked [3.3]"),
-      component("policy", Policy::kind, "rigid_only")
-          .doc("When the model is registered non-rigidly to such a frame [4.8]"),
+      component("policy", Policy::kind)
+          .optional()
+          .doc("When the model is registered non-rigidly to such a frame [4.8]; without it the model is "
+               "rigid, "
+               "and its distance to frames is not measured"),
       component("update", ModelUpdate::kind, "reintegration").doc("How it takes up what comes of that [4.8]"),
-      component("tracking_error", Correspondence::kind, "projective")
-          .doc("What counts as matched where the model's distance to a frame is measured"),
+      group("tracking_error", tracking_error_table())
+          .doc("How the distance between the model and a frame is measured, by which the policy judges"),
       group("followed", followed_table()).doc("Points of the model that are followed wherever it goes"),
   };
 }
@@ -44,10 +47,10 @@ TrackingMethod make_tracking_method(const Parameters& experiment, const Registry
           registry.make<Segmentation>(experiment.section("segmentation")),
           registry.make<PoseEstimatorKind>(experiment.section("pose")),
           registry.make<ModelKind>(experiment.section("model")),
-          registry.make<Policy>(experiment.section("policy")),
+          experiment.has("policy") ? registry.make<Policy>(experiment.section("policy")) : nullptr,
           make_nonrigid_method(experiment, registry),
           registry.make<ModelUpdate>(experiment.section("update")),
-          registry.make<Correspondence>(experiment.section("tracking_error")),
+          read_tracking_error(experiment.section("tracking_error")),
           make_followed(experiment.section("followed"))};
 }
 

@@ -11,6 +11,7 @@
 #include "framework/pose/pose_estimator.h"
 #include "framework/registration/nonrigid_method.h"
 #include "framework/tracking/policy.h"
+#include "framework/tracking/tracking_error.h"
 
 namespace pliant {
 
@@ -26,10 +27,11 @@ struct TrackingMethod {
   std::unique_ptr<Segmentation> segmentation;
   std::unique_ptr<PoseEstimatorKind> pose;
   std::unique_ptr<ModelKind> model;
-  std::unique_ptr<Policy> policy;
+  std::unique_ptr<Policy>
+      policy;                  ///< null: the model is rigid, and its distance to the frames is not measured
   NonRigidMethod deformation;  ///< how the model is registered to frames when the policy wants it
   std::unique_ptr<ModelUpdate> update;
-  std::unique_ptr<Correspondence> error;  ///< between the model and a frame
+  TrackingErrorOptions error;
   FollowedPoints followed;
 };
 

@@ -245,11 +245,11 @@ constexpr double cut = 12;  // mm
 /// Device and reference measure alike; gives what was measured.
 Residual expect_agreement(Device& device, const ProjectiveCorrespondence& projective,
                           const SurfaceMap& target, const PointSet& moved) {
-  ResidualMeter meter(device, projective, target, moved.points.size() / 3, cut);
+  ResidualMeter meter(device, projective, moved.points.size() / 3, cut);
   std::vector<float> per_point;
   projective.measure_reference(moved, target, per_point);
   const Residual expected = sum_residuals_reference(target, moved.points, per_point, cut);
-  meter.measure(moved);
+  meter.measure(moved, target);
   const Residual measured = meter.read();
   EXPECT_EQ(measured.matched, expected.matched);
   EXPECT_EQ(measured.landed, expected.landed);
@@ -326,8 +326,8 @@ TEST(ResidualMeter, KnowsNothingWhereTheMatchIsRejected) {
   constraints.data = Array<float>(std::vector<float>(6 * 800));
   constraints.confidence = Array<float>(std::vector<float>(800));
   projective.match(device, moved, Array<int>(all), target, constraints);
-  ResidualMeter meter(device, projective, target, 800, cut);
-  meter.measure(moved);
+  ResidualMeter meter(device, projective, 800, cut);
+  meter.measure(moved, target);
   for (std::size_t i = 0; i < 800; ++i) {
     const Eigen::Map<const Eigen::Vector3f> pull(constraints.data.host().data() + 6 * i);
     const bool is_matched = constraints.confidence.host()[i] > 0;
@@ -419,7 +419,7 @@ TEST(ResidualMeter, IsZeroWhereNothingLands) {
   std::mt19937 random(5);
   const SurfaceMap target = make_target(random);
   const ProjectiveCorrespondence projective(limits(1000, 1));
-  ResidualMeter meter(device, projective, target, 1, cut);
+  ResidualMeter meter(device, projective, 1, cut);
   meter.measure({Array<float>(std::vector<float>{0, 0, -10}), Array<float>(std::vector<float>{0, 0, 0})});
   const Residual residual = meter.read();
   EXPECT_EQ(residual.landed, 0);
