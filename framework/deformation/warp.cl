@@ -37,6 +37,28 @@ void blend(int first, int last, int per_point, global const int* nodes, global c
 #endif
 }
 
+// `m`: the points' own form, relative to `origin`.
+Vector moved_by(const Lanes* m, Vector p, float3 origin) {
+  const Lanes x = p.x - origin.x, y = p.y - origin.y, z = p.z - origin.z;
+  const Vector moved = {p.x + (m[0] * x + m[1] * y + m[2] * z + m[3]),
+                        p.y + (m[4] * x + m[5] * y + m[6] * z + m[7]),
+                        p.z + (m[8] * x + m[9] * y + m[10] * z + m[11])};
+  return moved;
+}
+
+kernel void warp_points(global const float* points, int point_count, global const int* nodes,
+                        global const float* weights, int per_point, global const float* node_points,
+                        global const float* rows, global float* moved_points) {
+  const int first = get_global_id(0) * WIDTH;
+  if (first >= point_count) return;
+  const int count = point_count - first;
+  Lanes m[16];
+  blend(first, point_count, per_point, nodes, weights, rows, m);
+  const Vector p = load_vectors(points + 3 * first, count);
+  store_vectors(moved_by(m, p, vload3(0, node_points)), count, moved_points + 3 * first);
+}
+
+// With the normals.
 kernel void warp(global const float* points, global const float* normals, int point_count,
                  global const int* nodes, global const float* weights, int per_point,
                  global const float* node_points, global const float* rows, global float* moved_points,
@@ -47,13 +69,8 @@ kernel void warp(global const float* points, global const float* normals, int po
   Lanes m[16];
   blend(first, point_count, per_point, nodes, weights, rows, m);
 
-  const float3 origin = vload3(0, node_points);
   const Vector p = load_vectors(points + 3 * first, count);
-  const Lanes x = p.x - origin.x, y = p.y - origin.y, z = p.z - origin.z;
-  const Vector moved = {p.x + (m[0] * x + m[1] * y + m[2] * z + m[3]),
-                        p.y + (m[4] * x + m[5] * y + m[6] * z + m[7]),
-                        p.z + (m[8] * x + m[9] * y + m[10] * z + m[11])};
-  store_vectors(moved, count, moved_points + 3 * first);
+  store_vectors(moved_by(m, p, vload3(0, node_points)), count, moved_points + 3 * first);
 
   // The rows of the matrix of cofactors.
   const Vector row_x = {1 + m[0], m[1], m[2]}, row_y = {m[4], 1 + m[5], m[6]},

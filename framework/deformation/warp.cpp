@@ -8,22 +8,48 @@
 
 namespace pliant {
 
+namespace {
+
+const std::string& source() {
+  static const std::string text = with_lanes(embedded::framework_deformation_warp_cl);
+  return text;
+}
+
+/// What the nodes do to points, as make_rows of warp.cl has it.
+Buffer rows_of_nodes(Device& device, const Array<float>& node_points, const Array<float>& affine) {
+  const std::size_t count = node_points.size() / 3;
+  Buffer rows = device.allocate(16 * sizeof(float) * count);
+  auto make_rows = device.kernel(source(), "make_rows");
+  device.run("warp", make_rows, count, 64, static_cast<cl_int>(count), node_points.device(device),
+             affine.device(device), rows);
+  return rows;
+}
+
+}  // namespace
+
 void warp(Device& device, const PointSet& rest, const Influences& influences, const Array<float>& node_points,
           const Array<float>& affine, PointSet& moved) {
   const auto count = rest.points.size() / 3;
-  const auto node_count = node_points.size() / 3;
   const auto width = static_cast<std::size_t>(device.width());
-  static const std::string source = with_lanes(embedded::framework_deformation_warp_cl);
-  auto make_rows = device.kernel(source, "make_rows");
-  auto kernel = device.kernel(source, "warp");
-  const Buffer rows = device.allocate(16 * sizeof(float) * node_count);
-  device.run("warp", make_rows, node_count, 64, static_cast<cl_int>(node_count), node_points.device(device),
-             affine.device(device), rows);
+  const Buffer rows = rows_of_nodes(device, node_points, affine);
+  auto kernel = device.kernel(source(), "warp");
   device.run("warp", kernel, (count + width - 1) / width, 16, rest.points.device(device),
              rest.normals.device(device), static_cast<cl_int>(count), influences.nodes.device(device),
              influences.weights.device(device), static_cast<cl_int>(influences.per_point),
              node_points.device(device), rows, moved.points.write_device(device),
              moved.normals.write_device(device));
+}
+
+void warp_points(Device& device, const Array<float>& points, const Influences& influences,
+                 const Array<float>& node_points, const Array<float>& affine, Array<float>& moved) {
+  const auto count = points.size() / 3;
+  const auto width = static_cast<std::size_t>(device.width());
+  const Buffer rows = rows_of_nodes(device, node_points, affine);
+  auto kernel = device.kernel(source(), "warp_points");
+  device.run("warp", kernel, (count + width - 1) / width, 16, points.device(device),
+             static_cast<cl_int>(count), influences.nodes.device(device), influences.weights.device(device),
+             static_cast<cl_int>(influences.per_point), node_points.device(device), rows,
+             moved.write_device(device));
 }
 
 PointSet warp_reference(const PointSet& rest, const Influences& influences, const Array<float>& node_points,

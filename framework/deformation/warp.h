@@ -21,7 +21,11 @@ inline constexpr int affine_size = 12;
 void warp(Device& device, const PointSet& rest, const Influences& influences, const Array<float>& node_points,
           const Array<float>& affine, PointSet& moved);
 
-/// Plain C++ reference of warp.
+/// The points alone; `moved` has the size of `points`.
+void warp_points(Device& device, const Array<float>& points, const Influences& influences,
+                 const Array<float>& node_points, const Array<float>& affine, Array<float>& moved);
+
+/// Plain C++ reference of both.
 PointSet warp_reference(const PointSet& rest, const Influences& influences, const Array<float>& node_points,
                         const Array<float>& affine);
 

@@ -3,6 +3,7 @@
 
 #include "framework/model/reintegration.h"
 #include "framework/model/tsdf.h"
+#include "framework/model/warp_field.h"
 
 namespace pliant {
 namespace {
@@ -31,6 +32,7 @@ void register_model_updates(Registry& registry) {
       [](const Parameters& section, const Registry&) {
         return std::make_unique<ReintegrationKind>(section);
       });
+  register_warp_field(registry);
 }
 
 }  // namespace pliant

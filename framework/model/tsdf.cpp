@@ -73,26 +73,48 @@ void Tsdf::clear() {
 
 void Tsdf::integrate(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model,
                      int weight) {
+  fuse(depth, camera, camera_from_model, weight, nullptr);
+}
+
+void Tsdf::integrate(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model,
+                     const DisplacementLattice& lattice) {
+  fuse(depth, camera, camera_from_model, 1, &lattice);
+}
+
+void Tsdf::fuse(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model,
+                int weight, const DisplacementLattice* lattice) {
   check(camera_from_model);
   const PixelWindow& window = depth.window;
   if (window.size() == 0) return;
   const cl_float16 placing = rows_of(camera_from_model * grid_.model_from_voxel());
   const auto truncation = static_cast<float>(grid_.truncation);
+  const auto stride = static_cast<cl_int>(depth.stride);
   const std::size_t tiles = tiles_over(window);
   make_room(bounds_, 2 * tiles);
-  static const std::string fusing = with_tsdf_grid(embedded::framework_model_tsdf_fuse_cl);
+  static const std::string fusing = with_lattice(embedded::framework_model_tsdf_fuse_cl);
   auto bound = tsdf_kernel(device_, fusing, "bound_depth");
-  auto find = tsdf_kernel(device_, fusing, "find_bricks");
-  auto fuse = tsdf_kernel(device_, fusing, "fuse");
-  device_.run("integrate", bound, tiles, work_group, depth.depth.device(device_),
-              static_cast<cl_int>(depth.stride), as_argument(window), bounds_.write_device(device_), found_);
-  device_.run("integrate", find, brick_count(grid_), work_group, bricks_of(grid_), placing, pinhole(camera),
-              as_argument(window), truncation, bounds_.device(device_), contents_, found_);
+  auto find = tsdf_kernel(device_, fusing, lattice ? "find_displaced_bricks" : "find_bricks");
+  auto fusion = tsdf_kernel(device_, fusing, lattice ? "fuse_displaced" : "fuse");
+  const Buffer& seen = depth.depth.device(device_);
+  device_.run("integrate", bound, tiles, work_group, seen, stride, as_argument(window),
+              bounds_.write_device(device_), found_);
+  const auto find_bricks = [&](const auto&... more) {
+    device_.run("integrate", find, brick_count(grid_), work_group, bricks_of(grid_), placing, pinhole(camera),
+                as_argument(window), truncation, bounds_.device(device_), contents_, found_, more...);
+  };
   const auto items = static_cast<std::size_t>(device_.work_group_size());
-  device_.run("integrate", fuse, fusing_groups * items, items, found_, bricks_of(grid_), placing,
-              pinhole(camera), as_argument(window), static_cast<cl_int>(depth.stride), truncation,
-              static_cast<float>(weight), static_cast<float>(max_weight_), depth.depth.device(device_),
-              distances_, weights_, contents_);
+  const auto fuse_bricks = [&](const auto&... more) {
+    device_.run("integrate", fusion, fusing_groups * items, items, found_, bricks_of(grid_), placing,
+                pinhole(camera), as_argument(window), stride, truncation, static_cast<float>(weight),
+                static_cast<float>(max_weight_), seen, distances_, weights_, contents_, more...);
+  };
+  if (lattice) {
+    find_bricks(lattice->reaches().device(device_));
+    fuse_bricks(lattice->displacements().device(device_));
+  } else {
+    find_bricks();
+    fuse_bricks();
+  }
 }
 
 const SurfaceMap& Tsdf::raycast(const Camera& camera, const PixelWindow& window,

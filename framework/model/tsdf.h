@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "framework/device/array.h"
+#include "framework/model/displacement_lattice.h"
 #include "framework/model/reference_model.h"
 #include "framework/model/tsdf_grid.h"
 
@@ -31,6 +32,10 @@ class Tsdf : public ReferenceModel {
 
   void integrate(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model,
                  int weight = 1) override;
+  /// The same where the camera saw what is in the grid displaced: each voxel is told of from where it then
+  /// is. `lattice`: of grid().
+  void integrate(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model,
+                 const DisplacementLattice& lattice);
   const SurfaceMap& raycast(const Camera& camera, const PixelWindow& window,
                             const Eigen::Isometry3d& camera_from_model) override;
   Mesh mesh() const override;
@@ -42,6 +47,9 @@ class Tsdf : public ReferenceModel {
   TsdfVoxels read() const;
 
  private:
+  void fuse(const DepthMap& depth, const Camera& camera, const Eigen::Isometry3d& camera_from_model,
+            int weight, const DisplacementLattice* lattice);
+
   Device& device_;
   TsdfGrid grid_;
   int max_weight_;

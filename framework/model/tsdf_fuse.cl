@@ -1,4 +1,4 @@
-// Fuses a depth map into a truncated signed distance field. Compiled behind tsdf_grid.cl. `window`: the
+// Fuses a depth map into a truncated signed distance field. Compiled behind lattice.cl. `window`: the
 // map's. The reference computes the same, rounding by rounding: products and sums are joined where it says
 // fma and nowhere else.
 #pragma OPENCL FP_CONTRACT OFF
@@ -54,18 +54,35 @@ bool is_told_of(Box box, bool is_observed, int4 tiles, int tile_columns, float t
   return false;
 }
 
-// Lists the bricks that fuse() looks at: how many, then which; in any order, as each is fused apart.
-kernel void find_bricks(int4 bricks, float16 placing, float4 camera, int4 window, float truncation,
-                        global const float* bounds, global int* contents, global int* found) {
-  const int index = get_global_id(0);
-  if (index >= bricks.x * bricks.y * bricks.z) return;
-  const Box box = box_of(brick_at(index, bricks), 0.0f, placing);
+// Lists a brick, whose voxels are in the box, where fuse() is to look at it: how many, then which; in any
+// order, as each is fused apart.
+void list_brick(int index, Box box, float4 camera, int4 window, float truncation, global const float* bounds,
+                global int* contents, global int* found) {
   const int4 tiles = tiles_of(box, camera, window);
   const bool is_observed = contents[index] != 0;
   if (is_told_of(box, is_observed, tiles, tiles_over(window).x, truncation, bounds)) {
     contents[index] = 0;  // fuse() says anew
     found[1 + atomic_inc(found)] = index;
   }
+}
+
+kernel void find_bricks(int4 bricks, float16 placing, float4 camera, int4 window, float truncation,
+                        global const float* bounds, global int* contents, global int* found) {
+  const int index = get_global_id(0);
+  if (index >= bricks.x * bricks.y * bricks.z) return;
+  const Box box = box_of(brick_at(index, bricks), 0.0f, placing);
+  list_brick(index, box, camera, window, truncation, bounds, contents, found);
+}
+
+// The same of a grid that is displaced. `reaches`: see lattice.cl.
+kernel void find_displaced_bricks(int4 bricks, float16 placing, float4 camera, int4 window, float truncation,
+                                  global const float* bounds, global int* contents, global int* found,
+                                  global const float* reaches) {
+  const int index = get_global_id(0);
+  if (index >= bricks.x * bricks.y * bricks.z) return;
+  const Box box = box_of(brick_at(index, bricks), 0.0f, placing);
+  list_brick(index, widened(box, vload8(index, reaches), placing), camera, window, truncation, bounds,
+             contents, found);
 }
 
 typedef struct {
@@ -100,46 +117,75 @@ Seen depth_at(Lanes u, Lanes v, Truth in_front, int4 window, int stride, float t
   return seen;
 }
 
-// A work-group fuses one brick after another. The map counts as `shown` frames.
-kernel void fuse(global const int* found, int4 bricks, float16 placing, float4 camera, int4 window,
-                 int stride, float truncation, float shown, float max_weight, global const float* depth,
-                 global short* distances, global uchar* weights, global int* contents) {
+// What WIDTH voxels hold, in parts of the truncation, once a map told of them, which counts as `shown`
+// frames. `p`: where they lie, in voxels.
+Lanes fuse_voxels(Vector p, float16 placing, float4 camera, int4 window, int stride, float truncation,
+                  float max_weight, global const float* depth, global short* distances,
+                  global uchar* weights) {
+  const Lanes px = fma((Lanes)placing.s0, p.x,
+                       fma((Lanes)placing.s1, p.y, fma((Lanes)placing.s2, p.z, (Lanes)placing.s3)));
+  const Lanes py = fma((Lanes)placing.s4, p.x,
+                       fma((Lanes)placing.s5, p.y, fma((Lanes)placing.s6, p.z, (Lanes)placing.s7)));
+  const Lanes pz = fma((Lanes)placing.s8, p.x,
+                       fma((Lanes)placing.s9, p.y, fma((Lanes)placing.sa, p.z, (Lanes)placing.sb)));
+  const Lanes inverse = 1.0f / pz;
+  const Lanes u = fma((Lanes)camera.x, px * inverse, (Lanes)camera.z);
+  const Lanes v = fma((Lanes)camera.y, py * inverse, (Lanes)camera.w);
+  const Seen seen = depth_at(u, v, pz > (Lanes)0, window, stride, truncation, depth);
+  const Lanes ahead = seen.depth - pz;  // mm from the voxel to the surface, along the axis
+
+  const Lanes old = LOAD_DISTANCES(distances);
+  const Truth was_observed = old != (Lanes)0;
+  const Truth is_told =
+      seen.is_known && ahead >= (Lanes)-truncation && (was_observed || ahead < (Lanes)truncation);
+  if (!ANY(is_told)) return old;
+  const Lanes weight = LOAD_DISTANCES(weights);
+  const Lanes told = fmin(ahead, (Lanes)truncation) * (STEPS / truncation);
+  const Lanes mean = rint(fma(old, weight, told * shown) / (weight + shown));
+  const Lanes now = select(old, select(mean, (Lanes)1, mean == (Lanes)0), is_told);
+  STORE_DISTANCES(now, distances);
+  STORE_WEIGHTS(select(weight, fmin(weight + shown, (Lanes)max_weight), is_told), weights);
+  return now;
+}
+
+// A work-group fuses one brick after another, WIDTH voxels of a row at a time. `displacements`: see
+// lattice.cl; 0 where nothing is displaced.
+static inline void fuse_bricks(global const int* found, int4 bricks, float16 placing, float4 camera,
+                               int4 window, int stride, float truncation, float shown, float max_weight,
+                               global const float* depth, global short* distances, global uchar* weights,
+                               global int* contents, global const float* displacements) {
   const int2 pitch = {bricks.x * BRICK_X, bricks.y * BRICK_Y};
-  const Lanes scale = STEPS / truncation;
   for (int n = get_group_id(0); n < found[0]; n += get_num_groups(0)) {
     const int3 corner = brick_at(found[1 + n], bricks) * (int3)(BRICK_X, BRICK_Y, BRICK_Z);
     Truth any_observed = 0, any_inside = 0;
     for (int part = get_local_id(0); part < BRICK_X * BRICK_Y * BRICK_Z / WIDTH; part += get_local_size(0)) {
       const int i = part * WIDTH;
       const int3 voxel = corner + (int3)(i % BRICK_X, i / BRICK_X % BRICK_Y, i / (BRICK_X * BRICK_Y));
-      const Lanes x = convert_float(voxel.x) + LANE_OFFSETS;
-      const float y = voxel.y, z = voxel.z;
-      const Lanes px = fma((Lanes)placing.s0, x, (Lanes)fma(placing.s1, y, fma(placing.s2, z, placing.s3)));
-      const Lanes py = fma((Lanes)placing.s4, x, (Lanes)fma(placing.s5, y, fma(placing.s6, z, placing.s7)));
-      const Lanes pz = fma((Lanes)placing.s8, x, (Lanes)fma(placing.s9, y, fma(placing.sa, z, placing.sb)));
-      const Lanes inverse = 1.0f / pz;
-      const Lanes u = fma((Lanes)camera.x, px * inverse, (Lanes)camera.z);
-      const Lanes v = fma((Lanes)camera.y, py * inverse, (Lanes)camera.w);
-      const Seen seen = depth_at(u, v, pz > (Lanes)0, window, stride, truncation, depth);
-      const Lanes ahead = seen.depth - pz;  // mm from the voxel to the surface, along the axis
-
+      Vector p = {convert_float(voxel.x) + LANE_OFFSETS, (Lanes)voxel.y, (Lanes)voxel.z};
+      if (displacements != 0) p = displaced(p, voxel, bricks, displacements);
       const size_t at = voxel.x + pitch.x * (voxel.y + (size_t)pitch.y * voxel.z);
-      const Lanes old = LOAD_DISTANCES(distances + at);
-      const Truth was_observed = old != (Lanes)0;
-      const Truth is_told =
-          seen.is_known && ahead >= (Lanes)-truncation && (was_observed || ahead < (Lanes)truncation);
-      Lanes now = old;
-      if (ANY(is_told)) {
-        const Lanes weight = LOAD_DISTANCES(weights + at);
-        const Lanes told = fmin(ahead, (Lanes)truncation) * scale;
-        const Lanes mean = rint(fma(old, weight, told * shown) / (weight + shown));
-        now = select(old, select(mean, (Lanes)1, mean == (Lanes)0), is_told);
-        STORE_DISTANCES(now, distances + at);
-        STORE_WEIGHTS(select(weight, fmin(weight + shown, (Lanes)max_weight), is_told), weights + at);
-      }
+      const Lanes now = fuse_voxels(p, placing, camera, window, stride, truncation, shown, max_weight, depth,
+                                    distances + at, weights + at);
       any_observed = any_observed || now != (Lanes)0;
       any_inside = any_inside || now < (Lanes)0;
     }
     atomic_or(contents + found[1 + n], (ANY(any_observed) ? OBSERVED : 0) | (ANY(any_inside) ? INSIDE : 0));
   }
+}
+
+// The map counts as `shown` frames.
+kernel void fuse(global const int* found, int4 bricks, float16 placing, float4 camera, int4 window,
+                 int stride, float truncation, float shown, float max_weight, global const float* depth,
+                 global short* distances, global uchar* weights, global int* contents) {
+  fuse_bricks(found, bricks, placing, camera, window, stride, truncation, shown, max_weight, depth, distances,
+              weights, contents, 0);
+}
+
+// The same of a grid that is displaced.
+kernel void fuse_displaced(global const int* found, int4 bricks, float16 placing, float4 camera, int4 window,
+                           int stride, float truncation, float shown, float max_weight,
+                           global const float* depth, global short* distances, global uchar* weights,
+                           global int* contents, global const float* displacements) {
+  fuse_bricks(found, bricks, placing, camera, window, stride, truncation, shown, max_weight, depth, distances,
+              weights, contents, displacements);
 }

@@ -43,6 +43,40 @@ void average(float ahead, float truncation, float shown, float max_weight, std::
   weight = static_cast<std::uint8_t>(std::min(known + shown, max_weight));
 }
 
+/// `placed`: where a voxel lies, in voxels.
+template <class Placed>
+void fuse_voxels(const TsdfGrid& grid, int max_weight, const DepthMap& depth, const Camera& camera,
+                 const Eigen::Isometry3d& camera_from_model, TsdfVoxels& voxels, int weight,
+                 const Placed& placed) {
+  const cl_float16 rows = rows_of(camera_from_model * grid.model_from_voxel());
+  const cl_float4 pixels = pinhole(camera);
+  const auto truncation = static_cast<float>(grid.truncation);
+  std::size_t at = 0;
+  for (int k = 0; k < grid.size.z(); ++k) {
+    for (int j = 0; j < grid.size.y(); ++j) {
+      for (int i = 0; i < grid.size.x(); ++i, ++at) {
+        const Eigen::Vector3f p = placed(Eigen::Vector3i(i, j, k));
+        const auto along = [&](int row) {
+          const cl_float* m = rows.s + 4 * row;
+          return std::fma(m[0], p.x(), std::fma(m[1], p.y(), std::fma(m[2], p.z(), m[3])));
+        };
+        const float z = along(2);
+        if (!(z > 0)) continue;
+        const float inverse = 1 / z;
+        const float u = std::fma(pixels.s[0], along(0) * inverse, pixels.s[2]);
+        const float v = std::fma(pixels.s[1], along(1) * inverse, pixels.s[3]);
+        const auto seen = depth_at(depth, u, v, truncation);
+        if (!seen) continue;
+        const float ahead = *seen - z;
+        const bool is_told = ahead >= -truncation && (voxels.distances[at] != 0 || ahead < truncation);
+        if (is_told)
+          average(ahead, truncation, static_cast<float>(weight), static_cast<float>(max_weight),
+                  voxels.distances[at], voxels.weights[at]);
+      }
+    }
+  }
+}
+
 /// The field of distances on a grid, as rays through it see it.
 class Field {
  public:
@@ -157,34 +191,16 @@ std::optional<double> crossing(const Field& field, const Ray& ray, std::array<do
 }  // namespace
 
 void integrate_reference(const TsdfGrid& grid, int max_weight, const DepthMap& depth, const Camera& camera,
-                         const Eigen::Isometry3d& camera_from_model, TsdfVoxels& voxels, int weight) {
-  const cl_float16 rows = rows_of(camera_from_model * grid.model_from_voxel());
-  const cl_float4 pixels = pinhole(camera);
-  const auto truncation = static_cast<float>(grid.truncation);
-  std::size_t at = 0;
-  for (int k = 0; k < grid.size.z(); ++k) {
-    for (int j = 0; j < grid.size.y(); ++j) {
-      for (int i = 0; i < grid.size.x(); ++i, ++at) {
-        const auto along = [&](int row) {
-          const cl_float* m = rows.s + 4 * row;
-          return std::fma(m[0], static_cast<float>(i),
-                          std::fma(m[1], static_cast<float>(j), std::fma(m[2], static_cast<float>(k), m[3])));
-        };
-        const float z = along(2);
-        if (!(z > 0)) continue;
-        const float inverse = 1 / z;
-        const float u = std::fma(pixels.s[0], along(0) * inverse, pixels.s[2]);
-        const float v = std::fma(pixels.s[1], along(1) * inverse, pixels.s[3]);
-        const auto seen = depth_at(depth, u, v, truncation);
-        if (!seen) continue;
-        const float ahead = *seen - z;
-        const bool is_told = ahead >= -truncation && (voxels.distances[at] != 0 || ahead < truncation);
-        if (is_told)
-          average(ahead, truncation, static_cast<float>(weight), static_cast<float>(max_weight),
-                  voxels.distances[at], voxels.weights[at]);
-      }
-    }
-  }
+                         const Eigen::Isometry3d& camera_from_model, TsdfVoxels& voxels) {
+  fuse_voxels(grid, max_weight, depth, camera, camera_from_model, voxels,
+              [](const Eigen::Vector3i& voxel) -> Eigen::Vector3f { return voxel.cast<float>(); });
+}
+
+void integrate_reference(const TsdfGrid& grid, int max_weight, const DepthMap& depth, const Camera& camera,
+                         const Eigen::Isometry3d& camera_from_model, const DisplacementLattice& lattice,
+                         TsdfVoxels& voxels) {
+  fuse_voxels(grid, max_weight, depth, camera, camera_from_model, voxels,
+              [&](const Eigen::Vector3i& voxel) { return lattice.displaced_reference(voxel); });
 }
 
 SurfaceImage raycast_reference(const TsdfGrid& grid, const TsdfVoxels& voxels, const Camera& camera,

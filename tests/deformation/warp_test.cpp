@@ -127,6 +127,13 @@ TEST_P(WarpTest, TheDeviceAgreesWithTheReference) {
   }
 }
 
+TEST_P(WarpTest, PointsAloneGoWhereTheyGoWithTheirNormals) {
+  const auto affine = random_forms(0.1, 10);
+  Array<float> alone(rest_.points.size());
+  warp_points(device_, rest_.points, influences_, array(nodes_), affine, alone);
+  EXPECT_EQ(alone.host(), on_device(affine).points.host());
+}
+
 TEST_P(WarpTest, NormalsStayOfUnitLengthOrZero) {
   const auto moved = columns(on_device(random_forms(0.2, 10)).normals);
   for (Eigen::Index i = 0; i < kPoints; ++i)

@@ -71,6 +71,75 @@ TEST_P(TsdfKernels, FuseTheSameBitsAsTheReference) {
   EXPECT_EQ(*std::max_element(expected.weights.begin(), expected.weights.end()), max_weight);
 }
 
+/// A lattice whose points swing by up to 30 mm, as no smooth field would have them.
+DisplacementLattice swinging_lattice(Device& device, double amplitude) {
+  DisplacementLattice lattice(kGrid);
+  const Array<float> rest = lattice.points_at_rest(device);
+  std::vector<float> moved = rest.host();
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    moved[i] += static_cast<float>(amplitude * std::sin(0.7 * static_cast<double>(i)));
+  lattice.displace(device, rest, Array<float>(std::move(moved)));
+  return lattice;
+}
+
+TEST_P(TsdfKernels, FuseTheSameBitsAsTheReferenceThroughALattice) {
+  const DisplacementLattice lattice = swinging_lattice(device_, 30);
+  Tsdf tsdf(device_, kGrid, 3);
+  TsdfVoxels expected = tsdf.read();
+  for (const View& view : views()) {
+    const DepthMap map(view.frame);
+    tsdf.integrate(map, kCamera, view.camera_from_model, lattice);
+    const TsdfVoxels before = expected;
+    integrate_reference(kGrid, 3, map, kCamera, view.camera_from_model, lattice, expected);
+    const TsdfVoxels fused = tsdf.read();
+    EXPECT_TRUE(fused.distances == expected.distances);
+    EXPECT_TRUE(fused.weights == expected.weights);
+    EXPECT_FALSE(before.distances == expected.distances) << "the view tells nothing";
+  }
+}
+
+TEST_P(TsdfKernels, FuseTheSameBitsThroughALatticeAtRest) {
+  const DisplacementLattice lattice = swinging_lattice(device_, 0);
+  Tsdf plain(device_, kGrid, 64);
+  Tsdf displaced(device_, kGrid, 64);
+  for (const View& view : views()) {
+    const DepthMap map(view.frame);
+    plain.integrate(map, kCamera, view.camera_from_model);
+    displaced.integrate(map, kCamera, view.camera_from_model, lattice);
+  }
+  EXPECT_TRUE(plain.read().distances == displaced.read().distances);
+}
+
+TEST_P(TsdfKernels, PlaceTheLatticeAtEveryFourthVoxelAndBoundItsBricks) {
+  DisplacementLattice lattice(kGrid);
+  ASSERT_EQ(lattice.size(), Eigen::Vector3i(17, 15, 17));
+  const std::vector<Eigen::Vector3f> rest = unflatten(lattice.points_at_rest(device_));
+  std::vector<Eigen::Vector3f> moved = rest;
+  const Eigen::Vector3i brick(2, 3, 1);
+  std::size_t at = 0;
+  for (int k = 0; k < 17; ++k)
+    for (int j = 0; j < 15; ++j)
+      for (int i = 0; i < 17; ++i, ++at) {
+        const Eigen::Vector3d expected =
+            kGrid.model_from_voxel() * (DisplacementLattice::step * Eigen::Vector3d(i, j, k));
+        EXPECT_LT((rest[at].cast<double>() - expected).norm(), 1e-3);
+        moved[at].x() += static_cast<float>(kGrid.voxel * i);
+        moved[at].z() -= static_cast<float>(kGrid.voxel * (j + k));
+      }
+  lattice.displace(device_, flatten(rest), flatten(moved));
+  const Eigen::Vector3i bricks = kGrid.bricks();
+  const int index = brick.x() + bricks.x() * (brick.y() + bricks.y() * brick.z());
+  const float* reach = lattice.reaches().host().data() + std::ptrdiff_t{8} * index;
+  EXPECT_NEAR(reach[0], 8, 1e-4) << "its points along x are 8 to 12, along y 6 to 8, along z 2 to 4";
+  EXPECT_NEAR(reach[4], 12, 1e-4);
+  EXPECT_EQ(reach[1], 0);
+  EXPECT_NEAR(reach[2], -12, 1e-4);
+  EXPECT_NEAR(reach[6], -8, 1e-4);
+  const Eigen::Vector3f displaced = lattice.displaced_reference({34, 8, 9});
+  EXPECT_NEAR(displaced.x(), 34 + 8.5, 1e-3);
+  EXPECT_NEAR(displaced.z(), 9 - 2 - 2.25, 1e-3);
+}
+
 /// How what the device sees compares with what the reference does.
 struct Comparison {
   int seen = 0;   ///< pixels where the reference sees a point
