@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "framework/core/nearest.h"
 
@@ -25,20 +26,37 @@ Measure::Measure(const Parameters& section, const std::vector<RunRow>& rows)
 }
 
 Sample Measure::sample(const std::vector<std::string>& conditions) const {
+  return {expression_, rows_, filter(conditions)};
+}
+
+std::vector<RunRow> Measure::rows_that(const std::vector<std::string>& conditions) const {
+  const RowFilter taken = filter(conditions);
+  std::vector<RunRow> rows;
+  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(rows),
+               [&](const RunRow& row) { return taken.takes(row); });
+  return rows;
+}
+
+RowFilter Measure::filter(const std::vector<std::string>& conditions) const {
   std::vector<std::string> all = where_;
   all.insert(all.end(), conditions.begin(), conditions.end());
-  return {expression_, rows_, RowFilter(all, rows_, place_)};
+  return {all, rows_, place_};
 }
 
 std::string Measure::missing() const {
-  std::vector<std::string> known;
+  std::set<std::string> known;
   for (const RunRow& row : rows_)
-    for (const auto& [name, value] : row.numbers)
-      if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
+    for (const auto& [name, value] : row.numbers) known.insert(name);
+  return unknown_name(expression_, known, "run");
+}
+
+std::string unknown_name(const Expression& expression, const std::set<std::string>& known,
+                         const std::string& whose) {
   if (known.empty()) return "";
-  for (const std::string& name : expression_.names())
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      return fmt::format("no run has the number '{}'{}", name, suggestion(name, known));
+  for (const std::string& name : expression.names())
+    if (known.count(name) == 0)
+      return fmt::format("no {} has the number '{}'{}", whose, name,
+                         suggestion(name, {known.begin(), known.end()}));
   return "";
 }
 

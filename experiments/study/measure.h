@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,16 +20,26 @@ class Measure {
 
   /// Of those rows that meet these conditions, too.
   Sample sample(const std::vector<std::string>& conditions) const;
+  /// The rows that it is of and that meet these conditions, too.
+  std::vector<RunRow> rows_that(const std::vector<std::string>& conditions) const;
+  const Expression& expression() const { return expression_; }
   /// Which of its names no run has, with the nearest that there is; empty where each is there, or no run has
   /// any number.
   std::string missing() const;
 
  private:
+  RowFilter filter(const std::vector<std::string>& conditions) const;
+
   std::string place_;
   const std::vector<RunRow>& rows_;
   Expression expression_;
   std::vector<std::string> where_;
 };
+
+/// Says which of the names of a formula is not known, with the nearest that is; `whose`: as in "run". Empty where
+/// all are, or nothing is.
+std::string unknown_name(const Expression& expression, const std::set<std::string>& known,
+                         const std::string& whose);
 
 /// "AXIS=VALUE"
 std::string condition(const std::string& axis, const std::string& value);
