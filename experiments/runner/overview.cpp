@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "experiments/report/chart_svg.h"
@@ -72,9 +73,10 @@ Study study_of(const ExperimentPlan& plan, const ExperimentResult& result, const
                const fs::path& folder) {
   const auto folder_of = [&](const std::string& run) { return plan.has_variants() ? folder / run : folder; };
   Study study = make_study(study_section(plan), study_rows(plan, result.runs),
-                           [&](const RunRow& row) {
-                             return row.numbers.empty() ? std::vector<Numbers>()
-                                                        : read_run_frames(folder_of(row.name));
+                           [&, known = std::map<std::string, std::vector<Numbers>>()](const RunRow& row) mutable {
+                             const auto [found, is_new] = known.try_emplace(row.name);
+                             if (is_new && !row.numbers.empty()) found->second = read_run_frames(folder_of(row.name));
+                             return found->second;
                            });
   study.name = plan.name;
   if (study.title.empty()) study.title = plan.name;

@@ -65,7 +65,7 @@ class ChartMaker {
 
   std::vector<Chart::Series> series(const std::string& name, const Parameters& section,
                                     std::vector<std::string>& notes) const {
-    const Measure measure(section, rows_);
+    const Measure measure(section, rows_, frames_of_);
     std::string missing = is_over_frames(section_) ? "" : measure.missing();
     const auto color = color_of(section);
     std::vector<Chart::Series> all;
@@ -88,7 +88,7 @@ class ChartMaker {
   /// None where no run has its number.
   std::optional<Chart::Limit> limit(const std::string& name, const Parameters& section,
                                     std::vector<std::string>& notes) const {
-    const Measure measure(section, rows_);
+    const Measure measure(section, rows_, frames_of_);
     if (const std::string missing = measure.missing(); !missing.empty())
       notes.push_back(fmt::format("{}: {}", section.place(), missing));
     const Sample sample = measure.sample(where_);
@@ -108,7 +108,7 @@ class ChartMaker {
 
   std::vector<Chart::Point> points(const Measure& measure, const Conditions& conditions,
                                    std::string& missing) const {
-    return is_over_frames(section_) ? frame_points(measure, conditions, frames_of_, missing)
+    return is_over_frames(section_) ? frame_points(measure, conditions, missing)
                                     : points_over_axis(measure, conditions);
   }
 

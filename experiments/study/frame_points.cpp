@@ -7,11 +7,11 @@
 namespace pliant {
 
 std::vector<Chart::Point> frame_points(const Measure& measure, const std::vector<std::string>& conditions,
-                                       const FramesOf& frames_of, std::string& missing) {
+                                       std::string& missing) {
   std::set<std::string> known;
   std::map<double, std::vector<double>> values;  // by the number of the frame
   for (const RunRow& row : measure.rows_that(conditions))
-    for (const Numbers& frame : frames_of(row)) {
+    for (const Numbers& frame : measure.frames(row)) {
       for (const auto& [name, number] : frame) known.insert(name);
       std::vector<double>& here = values[frame.at("frame")];
       if (const auto value = measure.expression().value(frame)) here.push_back(*value);

@@ -11,6 +11,6 @@ namespace pliant {
 /// The value of a measure at each frame of the runs that meet the conditions: the mean of all that have it there, NaN
 /// where none has. In the order of the frames. A name that no frame has is told in `missing`.
 std::vector<Chart::Point> frame_points(const Measure& measure, const std::vector<std::string>& conditions,
-                                       const FramesOf& frames_of, std::string& missing);
+                                       std::string& missing);
 
 }  // namespace pliant

@@ -86,9 +86,9 @@ Study make_study(const Parameters& section, const std::vector<RunRow>& rows, con
   for (const auto& [name, chart] : section.sections("charts"))
     study.charts.push_back(make_chart(name, chart, rows, frames_of, study.notes));
   for (const auto& [name, table] : section.sections("tables"))
-    study.tables.push_back(make_figures_table(name, table, rows, study.notes));
+    study.tables.push_back(make_figures_table(name, table, rows, frames_of, study.notes));
   for (const auto& [name, claim] : section.sections("claims")) {
-    for (Finding& finding : make_findings(claim, rows)) study.findings.push_back(std::move(finding));
+    for (Finding& finding : make_findings(claim, rows, frames_of)) study.findings.push_back(std::move(finding));
   }
   for (const auto& [name, figure] : section.sections("pictures"))
     study.pictures.push_back(figure_of(name, figure, rows));

@@ -27,7 +27,7 @@ cv::Size panel_size(const PixelWindow& window) {
 
 std::string caption_of(const FrameRecord& record) {
   const std::string frame = fmt::format("frame {}: ", record.number);
-  return frame + (record.state == FrameState::tracked ? fmt::format("error {:.2f} mm", record.pose.mean_error)
+  return frame + (record.state == FrameState::tracked ? fmt::format("error {:.2f} mm", record.error.mean)
                                                       : to_string(record.state));
 }
 

@@ -249,6 +249,24 @@ study:
   EXPECT_THAT(made.findings[2].reason, HasSubstr("did you mean 'metrics.error'?"));
 }
 
+TEST(StudyClaim, IsJudgedOverSomeFrames) {
+  const Study made = study(R"(
+study:
+  claims:
+    low: {claim: low, values: {a: {value: error, frames: [2, 3], where: [method=ED, set=1]}}, holds: a < 104.6}
+    none: {claim: none, values: {a: {value: error, frames: [4, 9]}}, holds: a > 0}
+  tables:
+    all: {title: t, rows: [method], columns: {error: {value: error, frames: [1, 3], where: [seed=1]}}}
+)");
+  EXPECT_NEAR(made.findings[0].values[0].second, 104.5, 1e-12) << "of frame 3, the mean over the seeds";
+  EXPECT_EQ(made.findings[0].verdict, Finding::Verdict::confirmed);
+  EXPECT_EQ(made.findings[1].reason, "no run has 'a'");
+  EXPECT_THAT(made.tables[0].rows[0].cells, ElementsAre("ED", "103.00"));
+  EXPECT_THAT(error_of("study: {claims: {c: {claim: c, values: {a: {value: error, frames: [3, 2]}}, holds: a < "
+                       "1}}}\n"),
+              HasSubstr("'frames' ends before it begins"));
+}
+
 TEST(StudyClaim, IsJudgedForEachValueOnAnAxis) {
   const Study made = study(
       "study: {claims: {c: {claim: low, each: set, values: {a: {value: metrics.error, where: [method=ED]}}, "
