@@ -25,9 +25,14 @@ cv::Size panel_size(const PixelWindow& window) {
           std::clamp(panel_width * window.height / std::max(window.width, 1), 1, most_panel_height)};
 }
 
+/// As the thesis measures it, where that is asked for; else as rigid tracking does.
+double error_of(const FrameRecord& record) {
+  return record.error.matched > 0 ? record.error.mean : record.pose.mean_error;
+}
+
 std::string caption_of(const FrameRecord& record) {
   const std::string frame = fmt::format("frame {}: ", record.number);
-  return frame + (record.state == FrameState::tracked ? fmt::format("error {:.2f} mm", record.error.mean)
+  return frame + (record.state == FrameState::tracked ? fmt::format("error {:.2f} mm", error_of(record))
                                                       : to_string(record.state));
 }
 
@@ -51,7 +56,6 @@ Moment moment_of(const TrackedFrame& tracked) {
   paint_surface(model, PanelPixels(size, tracked.model->window), *tracked.model);
   return {caption_of(tracked.record), model, model_distances(*tracked.seen, *tracked.model)};
 }
-
 
 std::vector<std::uint8_t> draw_moments(const std::vector<Moment>& moments, const ColorScale& scale, int a_row) {
   const int count = static_cast<int>(moments.size());
