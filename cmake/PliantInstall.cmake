@@ -20,7 +20,7 @@ install(DIRECTORY ${PLIANT_PUBLIC_FOLDER}/pliant DESTINATION ${CMAKE_INSTALL_INC
 set(PLIANT_EXPERIMENTS ${CMAKE_INSTALL_DATADIR}/pliant/experiments)
 file(GLOB EXPERIMENTS CONFIGURE_DEPENDS experiments/*.yaml)
 install(FILES ${EXPERIMENTS} DESTINATION ${PLIANT_EXPERIMENTS})
-install(DIRECTORY experiments/methods experiments/chapter5 DESTINATION ${PLIANT_EXPERIMENTS})
+install(DIRECTORY experiments/methods experiments/chapter5 experiments/chapter6 DESTINATION ${PLIANT_EXPERIMENTS})
 install(FILES experiments/README.md DESTINATION ${PLIANT_EXPERIMENTS})
 configure_package_config_file(cmake/PliantConfig.cmake.in PliantConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pliant PATH_VARS PLIANT_EXPERIMENTS)

@@ -57,7 +57,8 @@ struct Chapter {
   const char* title;
 };
 
-constexpr std::array chapters{Chapter{"chapter5", "Chapter 5: registration of pairs"}};
+constexpr std::array chapters{Chapter{"chapter5", "Chapter 5: registration of pairs"},
+                              Chapter{"chapter6", "Chapter 6: tracking what deforms"}};
 
 /// The experiments of a chapter, in the order of their files' names.
 std::vector<Item> items_of(const Chapter& chapter) {
@@ -175,8 +176,11 @@ class Reproduction {
   }
 
   static Study note_of(const Item& item, std::vector<std::string> notes) {
-    return {item.name, item.title.empty() ? item.name : item.title, "", {}, {}, {}, {}, std::move(notes), "",
-            {}};
+    Study study;
+    study.name = item.name;
+    study.title = item.title.empty() ? item.name : item.title;
+    study.notes = std::move(notes);
+    return study;
   }
 
   Study study_of(const Planned& planned, const ExperimentResult& made, const fs::path& folder) {

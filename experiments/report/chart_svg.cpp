@@ -22,10 +22,11 @@ constexpr double right = 18;
 constexpr double letter = 6.7;  ///< mean width at the size of the labels
 constexpr double row = 22;      ///< of the legend
 
-const char* color(std::size_t series) {
-  static constexpr std::array<const char*, 8> colors{"#2f6fdb", "#d9541e", "#1d8a5a", "#8a4fbf",
-                                                     "#a87400", "#c2306b", "#178b9c", "#6b7280"};
-  return colors[series % colors.size()];
+/// Those of chart.css in the light, in the order of chart_colors().
+const char* paint_of(std::size_t color) {
+  static constexpr std::array<const char*, 9> paints{"#2f6fdb", "#d9541e", "#1d8a5a", "#8a4fbf", "#a87400",
+                                                     "#c2306b", "#178b9c", "#6b7280", "#d1242f"};
+  return paints[color];
 }
 
 double text_width(const std::string& text) {
@@ -43,15 +44,15 @@ std::string text(double x, double y, const std::string& anchor, const std::strin
 }
 
 std::string line(const char* kind, double x1, double y1, double x2, double y2, const char* stroke,
-                 std::size_t series = 0) {
+                 std::size_t color = 0) {
   return fmt::format(
       "<line class=\"{} s{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n",
-      kind, series % 8, x1, y1, x2, y2, stroke);
+      kind, color, x1, y1, x2, y2, stroke);
 }
 
 /// Each series has a mark of its own, for who cannot tell the colours.
-std::string mark(double x, double y, std::size_t series) {
-  const std::string paint = fmt::format("class=\"mark s{}\" fill=\"{}\"", series % 8, color(series));
+std::string mark(double x, double y, std::size_t series, std::size_t color) {
+  const std::string paint = fmt::format("class=\"mark s{}\" fill=\"{}\"", color, paint_of(color));
   switch (series % 4) {
     case 0:
       return fmt::format("<circle {} cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"", paint, x, y);
@@ -77,7 +78,7 @@ class Drawing {
  public:
   explicit Drawing(const Chart& chart)
       : chart_(chart),
-        labels_(chart.kind == Chart::Kind::lines ? std::vector<std::string>{} : labels_of(chart)),
+        labels_(is_over_numbers(chart) ? std::vector<std::string>{} : labels_of(chart)),
         y_(y_axis_of(chart)),
         x_(x_axis_of(chart)) {
     double widest = 0;
@@ -91,7 +92,7 @@ class Drawing {
   double height() const { return top_ + plot_height + bottom_; }
 
   std::string svg() const {
-    return legend() + y_axis() + (chart_.kind == Chart::Kind::lines ? x_axis() : word_axis()) + values();
+    return legend() + y_axis() + (is_over_numbers(chart_) ? x_axis() : word_axis()) + values() + limits();
   }
 
  private:
@@ -105,6 +106,8 @@ class Drawing {
     return longest;
   }
 
+  std::size_t color(std::size_t series) const { return color_of(chart_, series); }
+  const char* paint(std::size_t series) const { return paint_of(color(series)); }
   double slot() const { return (width - left_ - right) / static_cast<double>(labels_.size()); }
   double x(double value) const { return left_ + x_.place(value) * (width - left_ - right); }
   double y(double value) const { return top_ + (1 - y_.place(value)) * plot_height; }
@@ -133,15 +136,19 @@ class Drawing {
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
       const auto& [at, base] = places_in_legend_[i];
       svg +=
-          chart_.kind == Chart::Kind::lines
-              ? line("line", at, base - 4, at + 18, base - 4, color(i), i) + mark(at + 9, base - 4, i) + "/>"
+          is_over_numbers(chart_)
+              ? line("line", at, base - 4, at + 18, base - 4, paint(i), color(i)) + legend_mark(at + 9, base - 4, i)
               : fmt::format(
                     "<rect class=\"bar s{}\" fill=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" "
                     "height=\"12\" rx=\"2\"/>",
-                    i % 8, color(i), at + 2, base - 10);
+                    color(i), paint(i), at + 2, base - 10);
       svg += text(at + 24, base, "start", chart_.series[i].name, "label");
     }
     return svg;
+  }
+
+  std::string legend_mark(double at, double base, std::size_t series) const {
+    return chart_.kind == Chart::Kind::lines ? mark(at, base, series, color(series)) + "/>" : "";
   }
 
   std::string y_axis() const {
@@ -188,6 +195,7 @@ class Drawing {
   std::string values() const {
     switch (chart_.kind) {
       case Chart::Kind::lines:
+      case Chart::Kind::frames:
         return lines();
       case Chart::Kind::bars:
         return bars();
@@ -201,9 +209,9 @@ class Drawing {
     const double high = y(point.value + point.spread);
     const double low =
         y_.is_log && point.value <= point.spread ? top_ + plot_height : y(point.value - point.spread);
-    return line("whisker", at, low, at, high, color(series), series) +
-           line("whisker", at - half, high, at + half, high, color(series), series) +
-           line("whisker", at - half, low, at + half, low, color(series), series);
+    return line("whisker", at, low, at, high, paint(series), color(series)) +
+           line("whisker", at - half, high, at + half, high, paint(series), color(series)) +
+           line("whisker", at - half, low, at + half, low, paint(series), color(series));
   }
 
   std::string lines() const {
@@ -213,18 +221,42 @@ class Drawing {
   }
 
   std::string curve(const Chart::Series& series, std::size_t index) const {
+    const bool is_dense = chart_.kind == Chart::Kind::frames;
     std::string path;
     std::string marks;
+    bool is_broken = true;
     for (const auto& point : series.points) {
-      if (!x_.takes(point.x) || !y_.takes(point.value)) continue;
-      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x(point.x), y(point.value));
-      marks += whisker(x(point.x), point, index) +
-               titled(mark(x(point.x), y(point.value), index), series.name, place_text(point), point);
+      if (!x_.takes(point.x) || !y_.takes(point.value)) {
+        is_broken |= is_dense;
+        continue;
+      }
+      path += fmt::format("{}{:.1f} {:.1f}", is_broken ? "M" : "L", x(point.x), y(point.value));
+      is_broken = false;
+      if (!is_dense) marks += marked(series, point, index);
     }
     if (path.empty()) return "";
     return fmt::format(
-        "<path class=\"line s{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n{}", index % 8,
-        path, color(index), marks);
+        "<path class=\"line s{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n{}", color(index),
+        path, paint(index), marks);
+  }
+
+  std::string marked(const Chart::Series& series, const Chart::Point& point, std::size_t index) const {
+    return whisker(x(point.x), point, index) +
+           titled(mark(x(point.x), y(point.value), index, color(index)), series.name, place_text(point), point);
+  }
+
+  /// Dashed across the plot, each with its name above its end.
+  std::string limits() const {
+    std::string svg;
+    for (const auto& limit : chart_.limits) {
+      if (!y_.takes(limit.value)) continue;
+      svg += fmt::format(
+                 "<line class=\"limit\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
+                 "stroke=\"#1d232b\" stroke-dasharray=\"7 5\"/>\n",
+                 left_, y(limit.value), width - right, y(limit.value)) +
+             text(width - right - 4, y(limit.value) - 5, "end", limit_text(limit), "label");
+    }
+    return svg;
   }
 
   std::string bar(double at, double wide, double from, double to, std::size_t index,
@@ -232,7 +264,7 @@ class Drawing {
     return titled(
         fmt::format("<rect class=\"bar s{}\" fill=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
                     "height=\"{:.1f}\"",
-                    index % 8, color(index), at, std::min(from, to), wide,
+                    color(index), paint(index), at, std::min(from, to), wide,
                     std::max(std::abs(to - from), 0.5)),
         chart_.series[index].name, point.label, point);
   }
@@ -255,8 +287,9 @@ class Drawing {
   /// Over a bar, in a colour that is seen on it.
   std::string ink_whisker(double at, const Chart::Point& point) const {
     std::string svg = whisker(at, point, 0, 5);
-    for (std::size_t found = 0; (found = svg.find("whisker s0", found)) != std::string::npos; ++found)
-      svg.replace(found, 10, "whisker ink");
+    const std::string mine = fmt::format("whisker s{}", color(0));
+    for (std::size_t found = 0; (found = svg.find(mine, found)) != std::string::npos; ++found)
+      svg.replace(found, mine.size(), "whisker ink");
     return svg;
   }
 

@@ -14,6 +14,8 @@ const char* name_of(Chart::Kind kind) {
   switch (kind) {
     case Chart::Kind::lines:
       return "lines";
+    case Chart::Kind::frames:
+      return "frames";
     case Chart::Kind::bars:
       return "bars";
     default:
@@ -21,7 +23,8 @@ const char* name_of(Chart::Kind kind) {
   }
 }
 
-ordered_json series_json(const Chart::Series& series) {
+ordered_json series_json(const Chart& chart, std::size_t number) {
+  const Chart::Series& series = chart.series[number];
   ordered_json points = ordered_json::array();
   for (const auto& point : series.points)
     points.push_back({{"x", point.x},
@@ -29,7 +32,7 @@ ordered_json series_json(const Chart::Series& series) {
                       {"value", point.value},
                       {"spread", point.spread},
                       {"text", value_text(point)}});
-  return {{"name", series.name}, {"points", points}};
+  return {{"name", series.name}, {"color", color_of(chart, number)}, {"points", points}};
 }
 
 bool is_stacked(const Chart& chart) { return chart.kind == Chart::Kind::stacked_bars; }
@@ -38,6 +41,7 @@ bool is_stacked(const Chart& chart) { return chart.kind == Chart::Kind::stacked_
 std::vector<double> extents(const Chart& chart) {
   if (is_stacked(chart)) return heights_of_stacks(chart);
   std::vector<double> values;
+  for (const auto& limit : chart.limits) values.push_back(limit.value);
   for (const auto& series : chart.series)
     for (const auto& point : series.points)
       values.insert(values.end(), {point.value, point.value - point.spread, point.value + point.spread});
@@ -53,7 +57,7 @@ ordered_json axis_json(const ChartAxis& axis, const std::string& label) {
 
 /// The places at the axis, each once: over numbers by the number, over words as they come.
 std::vector<Chart::Point> places_of(const Chart& chart) {
-  const bool by_number = chart.kind == Chart::Kind::lines;
+  const bool by_number = is_over_numbers(chart);
   std::vector<Chart::Point> places;
   for (const auto& series : chart.series)
     for (const auto& point : series.points) {
@@ -69,13 +73,29 @@ std::vector<Chart::Point> places_of(const Chart& chart) {
 
 std::string cell(const Chart& chart, const Chart::Series& series, const Chart::Point& place) {
   for (const auto& point : series.points)
-    if (chart.kind == Chart::Kind::lines ? point.x == place.x : point.label == place.label)
-      return point.spread > 0 ? fmt::format("{:.4g} ± {:.2g}", point.value, point.spread)
+    if (is_over_numbers(chart) ? point.x == place.x : point.label == place.label)
+      return !std::isfinite(point.value) ? ""
+             : point.spread > 0          ? fmt::format("{:.4g} ± {:.2g}", point.value, point.spread)
                               : fmt::format("{:.4g}", point.value);
   return "";
 }
 
 }  // namespace
+
+const std::vector<std::string>& chart_colors() {
+  static const std::vector<std::string> names{"blue", "orange", "green", "purple", "ochre",
+                                              "pink", "teal",   "grey",  "red"};
+  return names;
+}
+
+bool is_over_numbers(const Chart& chart) {
+  return chart.kind == Chart::Kind::lines || chart.kind == Chart::Kind::frames;
+}
+
+std::size_t color_of(const Chart& chart, std::size_t series) {
+  constexpr std::size_t given_out = 8;
+  return chart.series[series].color.value_or(series % given_out);
+}
 
 std::vector<std::string> labels_of(const Chart& chart) {
   std::vector<std::string> labels;
@@ -116,6 +136,10 @@ std::string place_text(const Chart::Point& point) {
   return point.label.empty() ? fmt::format("{:.6g}", point.x) : point.label;
 }
 
+std::string limit_text(const Chart::Limit& limit) {
+  return fmt::format("{}: {:.4g}", limit.name, limit.value);
+}
+
 Table values_table(const Chart& chart) {
   Table table;
   table.header.push_back(chart.x_label);
@@ -141,12 +165,15 @@ Table values_table(const Study& study) {
 
 ordered_json chart_json(const Chart& chart) {
   ordered_json series = ordered_json::array();
-  for (const auto& one : chart.series) series.push_back(series_json(one));
+  for (std::size_t i = 0; i < chart.series.size(); ++i) series.push_back(series_json(chart, i));
+  ordered_json limits = ordered_json::array();
+  for (const auto& limit : chart.limits) limits.push_back({{"text", limit_text(limit)}, {"value", limit.value}});
   return {{"kind", name_of(chart.kind)},
           {"x", axis_json(x_axis_of(chart), chart.x_label)},
           {"y", axis_json(y_axis_of(chart), chart.y_label)},
           {"labels", labels_of(chart)},
-          {"series", series}};
+          {"series", series},
+          {"limits", limits}};
 }
 
 }  // namespace pliant

@@ -9,6 +9,12 @@
 
 namespace pliant {
 
+/// Whether its axis has numbers, else words.
+bool is_over_numbers(const Chart& chart);
+
+/// Which of the page's colours a series has.
+std::size_t color_of(const Chart& chart, std::size_t series);
+
 /// The words at the axis of bars: of all series, in the order in which they come.
 std::vector<std::string> labels_of(const Chart& chart);
 
@@ -24,6 +30,9 @@ std::string value_text(const Chart::Point& point);
 
 /// What stands at the axis under a point: its label, or its number where it has none.
 std::string place_text(const Chart::Point& point);
+
+/// "threshold: 2"
+std::string limit_text(const Chart::Limit& limit);
 
 /// One row a place at the axis, one column a series.
 Table values_table(const Chart& chart);

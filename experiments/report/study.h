@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@ namespace pliant {
 struct Chart {
   enum class Kind {
     lines,         ///< over numbers, `Point::x`
+    frames,        ///< over the frames of a stream, `Point::x`: dense, and broken where a value is not finite
     bars,          ///< side by side over words, `Point::label`
     stacked_bars,  ///< on top of each other over words
   };
@@ -27,6 +29,12 @@ struct Chart {
   struct Series {
     std::string name;
     std::vector<Point> points;  ///< in the order of the axis
+    std::optional<std::size_t> color = {};  ///< of chart_colors(); the series' own place there by default
+  };
+  /// A value that all others are to be held against, drawn dashed across the plot.
+  struct Limit {
+    std::string name;
+    double value = 0;
   };
 
   std::string name;   ///< of its file, without ending
@@ -38,7 +46,12 @@ struct Chart {
   bool log_x = false;
   bool log_y = false;
   std::vector<Series> series;
+  std::vector<Limit> limits;
 };
+
+/// The names of the colours of series, in the order in which they are given out; `red` is given to none that does
+/// not ask for it.
+const std::vector<std::string>& chart_colors();
 
 /// What was claimed of an experiment, and what its numbers say.
 struct Finding {
@@ -57,6 +70,18 @@ struct ShownView {
   std::filesystem::path file;  ///< view.json in the run's folder
 };
 
+/// Pictures of runs side by side, as their report `pictures` has stored them.
+struct PictureFigure {
+  struct Shown {
+    std::string caption;         ///< what tells the run from the others
+    std::filesystem::path file;  ///< a PNG in the run's folder
+  };
+  std::string name;
+  std::string title;
+  std::string text;  ///< what it shows, in a sentence or two
+  std::vector<Shown> pictures;
+};
+
 /// All that an experiment of many runs came to: what a page over several of them shows.
 struct Study {
   std::string name;   ///< of the experiment
@@ -65,6 +90,7 @@ struct Study {
   std::vector<Chart> charts;
   std::vector<Table> tables;
   std::vector<Finding> findings;
+  std::vector<PictureFigure> pictures = {};
   std::vector<ShownView> views;
   std::vector<std::string> notes;      ///< failed runs and warnings: a line each
   std::string experiment;              ///< the resolved experiment, as YAML

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "experiments/report/base64.h"
 #include "experiments/report/chart_html.h"
 #include "experiments/report/findings_html.h"
 #include "experiments/report/json_table.h"
 #include "experiments/report/view_html.h"
+#include "framework/io/file.h"
 
 namespace pliant {
 namespace {
@@ -36,6 +38,24 @@ std::string charts_html(const Study& study) {
   return "<div class=\"charts\">\n" + html + "</div>\n";
 }
 
+std::string picture_html(const PictureFigure::Shown& shown) {
+  return fmt::format(
+      "<figure><div class=\"picture\"><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"></div>"
+      "<figcaption>{0}</figcaption></figure>\n",
+      html_escape(shown.caption), base64(read_file(shown.file.string())));
+}
+
+std::string pictures_html(const Study& study) {
+  std::string html;
+  for (const PictureFigure& figure : study.pictures) {
+    std::string body = figure.text.empty() ? "" : "<p>" + html_escape(figure.text) + "</p>\n";
+    body += "<div class=\"pictures\">\n";
+    for (const auto& shown : figure.pictures) body += picture_html(shown);
+    html += html_section(html_escape(figure.title), body + "</div>\n", html_id(study.name + "-" + figure.name));
+  }
+  return html;
+}
+
 std::string views_html(const Study& study) {
   std::string html;
   for (const auto& view : study.views) html += view_html(view.title, read_view(view.file));
@@ -48,7 +68,7 @@ std::string study_html(const Study& study) {
   if (!study.lead.empty()) html += "<p class=\"lead\">" + html_escape(study.lead) + "</p>\n";
   html += findings_html(study) + charts_html(study);
   for (const auto& table : study.tables) html += to_html(table);
-  return html + views_html(study) + html_notes(study.notes) + experiment_html(study.experiment) +
+  return html + pictures_html(study) + views_html(study) + html_notes(study.notes) + experiment_html(study.experiment) +
          environment_html(study.environment) + "</article>\n";
 }
 

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "experiments/report/chart_svg.h"
 #include "experiments/report/study_page.h"
 #include "experiments/runner/result_json.h"
+#include "experiments/runner/run_frames.h"
 #include "experiments/study/study_section.h"
 #include "experiments/tasks/json_file.h"
 #include "framework/core/error.h"
@@ -69,10 +71,21 @@ void write_charts(const Study& study, const fs::path& folder) {
 
 Study study_of(const ExperimentPlan& plan, const ExperimentResult& result, const DeviceInfo& device,
                const fs::path& folder) {
-  Study study = make_study(study_section(plan), study_rows(plan, result.runs));
+  const auto folder_of = [&](const std::string& run) { return plan.has_variants() ? folder / run : folder; };
+  Study study = make_study(study_section(plan), study_rows(plan, result.runs),
+                           [&, known = std::map<std::string, std::vector<Numbers>>()](const RunRow& row) mutable {
+                             const auto [found, is_new] = known.try_emplace(row.name);
+                             if (is_new && !row.numbers.empty()) found->second = read_run_frames(folder_of(row.name));
+                             return found->second;
+                           });
   study.name = plan.name;
   if (study.title.empty()) study.title = plan.name;
   for (ShownView& view : study.views) view.file = folder / view.file;
+  for (PictureFigure& figure : study.pictures) {
+    for (auto& shown : figure.pictures) shown.file = folder / shown.file;
+    std::erase_if(figure.pictures, [](const auto& shown) { return !fs::exists(shown.file); });
+  }
+  std::erase_if(study.pictures, [](const PictureFigure& figure) { return figure.pictures.empty(); });
   std::erase_if(study.views, [](const ShownView& view) { return !fs::exists(view.file); });
   const std::vector<std::string> notes = missing(plan, result);
   study.notes.insert(study.notes.begin(), notes.begin(), notes.end());

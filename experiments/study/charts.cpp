@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "experiments/study/frame_points.h"
 #include "experiments/study/measure.h"
 #include "framework/core/error.h"
 
@@ -16,6 +17,7 @@ namespace {
 ParameterTable series_table() {
   std::vector<Parameter> rows = Measure::rows();
   rows.push_back(text("by").optional().doc("an axis: a series of its own for each value on it"));
+  rows.push_back(choice("color", chart_colors()).optional().doc("given out in turn by default"));
   return ParameterTable(std::move(rows));
 }
 
@@ -28,36 +30,69 @@ std::optional<double> parse(const std::string& text) {
 
 Chart::Kind kind_of(const std::string& name) {
   if (name == "bars") return Chart::Kind::bars;
+  if (name == "frames") return Chart::Kind::frames;
   if (name == "stacked_bars") return Chart::Kind::stacked_bars;
   return Chart::Kind::lines;
+}
+
+using Conditions = std::vector<std::string>;
+
+bool is_over_frames(const Parameters& section) { return section.text("kind") == "frames"; }
+
+void check_keys(const Parameters& section) {
+  if (!is_over_frames(section)) {
+    if (!section.has("over"))
+      throw ConfigError(section.place() + ": 'over' is missing; expected an axis of the sweep");
+    return;
+  }
+  for (const char* key : {"over", "x"})
+    if (section.has(key))
+      throw ConfigError(fmt::format("{}: '{}' has no place in a chart over frames", section.place(), key));
 }
 
 /// Makes the series of one chart.
 class ChartMaker {
  public:
-  ChartMaker(const Parameters& section, const std::vector<RunRow>& rows)
-      : section_(section), rows_(rows), where_(section.words("where")), axis_(section.text("over")) {
+  ChartMaker(const Parameters& section, const std::vector<RunRow>& rows, const FramesOf& frames_of)
+      : section_(section), rows_(rows), frames_of_(frames_of), where_(section.words("where")) {
+    check_keys(section);
     check_conditions(where_, rows, section.place());
+    if (is_over_frames(section)) return;
+    axis_ = section.text("over");
     labels_ = values_on(axis_, rows, section.place());
-    if (!section.has("x")) return;
-    x_.emplace(section.text("x"), section.place());
+    if (section.has("x")) x_.emplace(section.text("x"), section.place());
   }
 
   std::vector<Chart::Series> series(const std::string& name, const Parameters& section,
                                     std::vector<std::string>& notes) const {
-    const Measure measure(section, rows_);
+    const Measure measure(section, rows_, frames_of_);
+    std::string missing = is_over_frames(section_) ? "" : measure.missing();
+    const auto color = color_of(section);
+    std::vector<Chart::Series> all;
+    if (!section.has("by")) {
+      all.push_back({name, points(measure, where_, missing), color});
+    } else {
+      const bool is_alone = section_.sections("series").size() == 1;
+      for (const std::string& value : values_on(section.text("by"), rows_, section.place())) {
+        Conditions conditions = where_;
+        conditions.push_back(condition(section.text("by"), value));
+        all.push_back({is_alone ? value : fmt::format("{}, {}", value, name),
+                       points(measure, conditions, missing), color});
+      }
+      std::erase_if(all, [&](const Chart::Series& each) { return each.points.empty() && has_numbers(); });
+    }
+    if (!missing.empty()) notes.push_back(fmt::format("{}: {}", section.place(), missing));
+    return all;
+  }
+
+  /// None where no run has its number.
+  std::optional<Chart::Limit> limit(const std::string& name, const Parameters& section,
+                                    std::vector<std::string>& notes) const {
+    const Measure measure(section, rows_, frames_of_);
     if (const std::string missing = measure.missing(); !missing.empty())
       notes.push_back(fmt::format("{}: {}", section.place(), missing));
-    if (!section.has("by")) return {{name, points(measure, where_)}};
-    const bool is_alone = section_.sections("series").size() == 1;
-    std::vector<Chart::Series> all;
-    for (const std::string& value : values_on(section.text("by"), rows_, section.place())) {
-      std::vector<std::string> conditions = where_;
-      conditions.push_back(condition(section.text("by"), value));
-      all.push_back({is_alone ? value : fmt::format("{}, {}", value, name), points(measure, conditions)});
-    }
-    std::erase_if(all, [&](const Chart::Series& each) { return each.points.empty() && has_numbers(); });
-    return all;
+    const Sample sample = measure.sample(where_);
+    return sample.count() > 0 ? std::optional(Chart::Limit{name, sample.mean()}) : std::nullopt;
   }
 
  private:
@@ -65,10 +100,22 @@ class ChartMaker {
     return std::any_of(rows_.begin(), rows_.end(), [](const RunRow& row) { return !row.numbers.empty(); });
   }
 
-  std::vector<Chart::Point> points(const Measure& measure, const std::vector<std::string>& conditions) const {
+  static std::optional<std::size_t> color_of(const Parameters& section) {
+    if (!section.has("color")) return {};
+    const auto& colors = chart_colors();
+    return std::find(colors.begin(), colors.end(), section.text("color")) - colors.begin();
+  }
+
+  std::vector<Chart::Point> points(const Measure& measure, const Conditions& conditions,
+                                   std::string& missing) const {
+    return is_over_frames(section_) ? frame_points(measure, conditions, missing)
+                                    : points_over_axis(measure, conditions);
+  }
+
+  std::vector<Chart::Point> points_over_axis(const Measure& measure, const Conditions& conditions) const {
     std::vector<Chart::Point> points;
     for (const std::string& label : labels_) {
-      std::vector<std::string> here = conditions;
+      Conditions here = conditions;
       here.push_back(condition(axis_, label));
       const std::optional<double> x = place_of(label, here);
       const Sample sample = measure.sample(here);
@@ -81,7 +128,7 @@ class ChartMaker {
   }
 
   /// Where a value on the axis is drawn.
-  std::optional<double> place_of(const std::string& label, const std::vector<std::string>& conditions) const {
+  std::optional<double> place_of(const std::string& label, const Conditions& conditions) const {
     if (x_) {
       const Sample sample(*x_, rows_, RowFilter(conditions, rows_, section_.place()));
       return sample.count() > 0 ? std::optional(sample.mean()) : std::nullopt;
@@ -95,20 +142,28 @@ class ChartMaker {
 
   const Parameters& section_;
   const std::vector<RunRow>& rows_;
-  std::vector<std::string> where_;
-  std::string axis_;
+  const FramesOf& frames_of_;
+  Conditions where_;
+  std::string axis_;  // empty: over frames
   std::vector<std::string> labels_;
   std::optional<Expression> x_;
 };
+
+std::string x_label_of(const Parameters& section) {
+  if (!section.text("x_label").empty()) return section.text("x_label");
+  return is_over_frames(section) ? "frame" : section.text("over");
+}
 
 }  // namespace
 
 ParameterTable chart_table() {
   return {
-      choice("kind", {"lines", "bars", "stacked_bars"}, "lines").doc("how values are drawn"),
+      choice("kind", {"lines", "bars", "stacked_bars", "frames"}, "lines")
+          .doc("how values are drawn; `frames`: those of each frame that was tracked (frames.jsonl), frame by frame"),
       text("title").doc("with the number that the figure has in a paper"),
       text("text", "").doc("what it shows, in a sentence or two"),
-      text("over").doc("the axis of the sweep whose values its points have; `run` for the entries of `runs`"),
+      text("over").optional().doc(
+          "the axis of the sweep whose values its points have; `run` for the entries of `runs`; frames have none"),
       text("x").optional().doc("a formula for where points are drawn; the values on the axis by default"),
       text("x_label", "").doc("with its unit; the axis by default"),
       text("y_label").doc("with its unit"),
@@ -116,23 +171,28 @@ ParameterTable chart_table() {
       boolean("log_y", false).doc("a logarithmic axis"),
       words("where").optional().doc("only of the runs that have AXIS=VALUE"),
       groups("series", series_table()).at_least(1).doc("what is drawn, by name"),
+      groups("limits", ParameterTable(Measure::rows()))
+          .optional()
+          .doc("numbers to hold all of it against, by name: dashed across the plot"),
   };
 }
 
 Chart make_chart(const std::string& name, const Parameters& section, const std::vector<RunRow>& rows,
-                 std::vector<std::string>& notes) {
+                 const FramesOf& frames_of, std::vector<std::string>& notes) {
   Chart chart;
   chart.name = name;
   chart.title = section.text("title");
   chart.text = section.text("text");
   chart.kind = kind_of(section.text("kind"));
-  chart.x_label = section.text("x_label").empty() ? section.text("over") : section.text("x_label");
+  chart.x_label = x_label_of(section);
   chart.y_label = section.text("y_label");
   chart.log_x = section.boolean("log_x");
   chart.log_y = section.boolean("log_y");
-  const ChartMaker maker(section, rows);
+  const ChartMaker maker(section, rows, frames_of);
   for (const auto& [label, series] : section.sections("series"))
     for (Chart::Series& one : maker.series(label, series, notes)) chart.series.push_back(std::move(one));
+  for (const auto& [label, limit] : section.sections("limits"))
+    if (auto one = maker.limit(label, limit, notes)) chart.limits.push_back(std::move(*one));
   return chart;
 }
 

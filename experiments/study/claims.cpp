@@ -31,11 +31,11 @@ void check_names(const Expression& holds, const Parameters& section) {
 
 /// Judges a claim over those runs that meet some conditions, too.
 Finding judge(const Parameters& section, const Expression& holds, const std::vector<RunRow>& rows,
-              const std::vector<std::string>& conditions) {
+              const FramesOf& frames_of, const std::vector<std::string>& conditions) {
   Finding finding{section.text("claim"), "", section.text("holds"), {}, Finding::Verdict::unknown, ""};
   Numbers numbers;
   for (const auto& [name, value] : section.sections("values")) {
-    const Measure measure(value, rows);
+    const Measure measure(value, rows, frames_of);
     const double number = measure.sample(conditions).statistic(value.text("statistic"));
     if (std::isfinite(number)) {
       numbers[name] = number;
@@ -62,14 +62,15 @@ ParameterTable claim_table() {
   };
 }
 
-std::vector<Finding> make_findings(const Parameters& section, const std::vector<RunRow>& rows) {
+std::vector<Finding> make_findings(const Parameters& section, const std::vector<RunRow>& rows,
+                                   const FramesOf& frames_of) {
   const Expression holds(section.text("holds"), section.place());
   check_names(holds, section);
-  if (!section.has("each")) return {judge(section, holds, rows, {})};
+  if (!section.has("each")) return {judge(section, holds, rows, frames_of, {})};
   const std::string& axis = section.text("each");
   std::vector<Finding> findings;
   for (const std::string& value : values_on(axis, rows, section.place())) {
-    findings.push_back(judge(section, holds, rows, {condition(axis, value)}));
+    findings.push_back(judge(section, holds, rows, frames_of, {condition(axis, value)}));
     findings.back().scope = fmt::format("{}: {}", axis, value);
   }
   return findings;

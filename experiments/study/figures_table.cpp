@@ -54,7 +54,7 @@ ParameterTable figures_table() {
 }
 
 Table make_figures_table(const std::string& name, const Parameters& section, const std::vector<RunRow>& rows,
-                         std::vector<std::string>& notes) {
+                         const FramesOf& frames_of, std::vector<std::string>& notes) {
   const Conditions& axes = section.words("rows");
   for (const std::string& axis : axes) values_on(axis, rows, section.place());
   Table table{section.text("title"), axes, {}};
@@ -64,7 +64,7 @@ Table make_figures_table(const std::string& name, const Parameters& section, con
     for (const std::string& value : values) table.rows.back().cells.push_back(value_of(value));
   }
   for (const auto& [heading, column] : section.sections("columns")) {
-    const Measure measure(column, rows);
+    const Measure measure(column, rows, frames_of);
     if (const std::string missing = measure.missing(); !missing.empty())
       notes.push_back(fmt::format("{}: {}", name, missing));
     table.header.push_back(heading);

@@ -13,11 +13,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
-void add_numbers(const ordered_json& json, const std::string& path, Numbers& numbers) {
+enum class Truths { left_out, taken };
+
+void add_numbers(const ordered_json& json, const std::string& path, Truths truths, Numbers& numbers) {
   if (json.is_number()) numbers[path] = json.get<double>();
+  if (json.is_boolean() && truths == Truths::taken) numbers[path] = json.get<bool>() ? 1 : 0;
   if (!json.is_object()) return;
   for (const auto& [key, value] : json.items())
-    add_numbers(value, path.empty() ? key : path + "." + key, numbers);
+    add_numbers(value, path.empty() ? key : path + "." + key, truths, numbers);
 }
 
 /// Whether a value is the wanted one, whose last letter may be "*" for any end.
@@ -46,8 +49,14 @@ RunRow make_run_row(const std::string& name, const ordered_json& json) {
   RunRow row{name, swept_values(name), {}};
   for (SweptValue& value : row.axes)
     if (value.name.empty()) value.name = runs_axis;
-  add_numbers(json, "", row.numbers);
+  add_numbers(json, "", Truths::left_out, row.numbers);
   return row;
+}
+
+Numbers numbers_of_frame(const ordered_json& json) {
+  Numbers numbers;
+  add_numbers(json, "", Truths::taken, numbers);
+  return numbers;
 }
 
 RowFilter::RowFilter(const std::vector<std::string>& conditions, const std::vector<RunRow>& rows,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/study/expression.h"
@@ -13,6 +14,8 @@ class Sample {
  public:
   /// Of the rows that the filter takes; those without the number are passed over.
   Sample(const Expression& expression, const std::vector<RunRow>& rows, const RowFilter& filter);
+
+  explicit Sample(std::vector<double> values) : values_(std::move(values)) {}
 
   int count() const { return static_cast<int>(values_.size()); }
   // Of an empty sample all of these are NaN.

@@ -1,14 +1,53 @@
 #include "experiments/tasks/track_pictures.h"
 
+#include <fmt/format.h>
+
+#include <charconv>
+#include <set>
+#include <string>
 #include <utility>
+
+#include "framework/core/error.h"
 
 namespace pliant {
 
 ParameterTable record_table() {
   return {
       boolean("video", false).doc("writes video.avi: pictures of the frames that are tracked"),
+      words("error_at").optional().doc(
+          "numbers of frames, the first is 1, that errors.png shows: the model and how far the frame is from it"),
+      real("error_scale", 10).unit("mm").range(0.01, 1000).doc("what the colours of errors.png end at"),
+      integer("until", 0).range(0, 1e9).doc("number of the frame that tracking ends with; 0: the last one"),
       integer("every", 1).range(1, 10000).doc("so many frames go by from one of its pictures to the next"),
   };
+}
+
+namespace {
+
+constexpr std::size_t most_frames = 24;
+
+std::set<int> frames_of(const Parameters& record) {
+  std::set<int> frames;
+  for (const std::string& word : record.words("error_at")) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size() || number < 1)
+      throw ConfigError(fmt::format("{}: '{}' in 'error_at' is no frame; expected whole numbers from 1 on",
+                                    record.place(), word));
+    frames.insert(number);
+  }
+  if (frames.size() > most_frames)
+    throw ConfigError(
+        fmt::format("{}: 'error_at' has {} frames; expected at most {}", record.place(), frames.size(), most_frames));
+  return frames;
+}
+
+}  // namespace
+
+std::shared_ptr<ErrorPictures> make_error_pictures(const Parameters& record) {
+  std::set<int> frames = frames_of(record);
+  if (frames.empty()) return nullptr;
+  return std::make_shared<ErrorPictures>(std::move(frames), static_cast<float>(record.real("error_scale")));
 }
 
 TrackPictures::TrackPictures(const ExperimentRun& run, const Making& making, const Rig& rig, Device& device)
@@ -16,6 +55,8 @@ TrackPictures::TrackPictures(const ExperimentRun& run, const Making& making, con
   if (making.observer != nullptr) observers_.push_back(making.observer);
   if (run.values.has("record")) {
     const Parameters& record = run.values.section("record");
+    last_frame_ = static_cast<int>(record.integer("until"));
+    if ((errors_ = make_error_pictures(record))) observers_.push_back(errors_.get());
     if (record.boolean("video"))
       observers_.push_back(&video_.emplace(video_file_, static_cast<int>(record.integer("every"))));
   }
@@ -33,13 +74,16 @@ bool TrackPictures::show(const Frame& frame, const FrameRecord& record, const Tr
   const TrackedFrame tracked{frame, augmented.empty() ? frame.color : augmented, record,
                              has_model ? &tracker.seen() : nullptr,
                              has_model ? &tracker.model_view() : nullptr};
-  bool goes_on = true;
+  bool goes_on = record.number != last_frame_;
   for (TrackObserver* observer : observers_) goes_on &= observer->show(tracked);
   return goes_on;
 }
 
 void TrackPictures::add_to(RunArtefacts& made, Mesh model) const {
   if (video_) made.files.push_back(video_file_);
+  if (errors_ && !errors_->empty())
+    made.pictures.emplace_back(errors_name, "The model and how far chosen frames are from it",
+                               [errors = errors_] { return errors->png(); });
   if (strip_->empty()) return;
   const Picture strip(strip_name, "The model and how far the frames are from it",
                       [strip = strip_] { return strip->png(); });

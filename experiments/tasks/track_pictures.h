@@ -8,12 +8,17 @@
 #include "experiments/report/artefacts.h"
 #include "experiments/tasks/task.h"
 #include "experiments/view/augmentation_section.h"
+#include "experiments/view/error_pictures.h"
 #include "experiments/view/picture_strip.h"
 #include "experiments/view/track_video.h"
 #include "experiments/view/track_view.h"
 #include "framework/tracking/tracker.h"
 
 namespace pliant {
+
+/// What a section of record_table() asks for; null where it asks for none. Throws ConfigError for what is no number of
+/// a frame.
+std::shared_ptr<ErrorPictures> make_error_pictures(const Parameters& record);
 
 /// Lets everyone watch the frames of a run who is to: its observer, and what makes pictures of them. Who sees
 /// their colour sees it with the run's virtual object.
@@ -31,11 +36,14 @@ class TrackPictures {
   void add_to(RunArtefacts& made, Mesh model) const;
 
   static constexpr const char* strip_name = "strip";
+  static constexpr const char* errors_name = "errors";
   static constexpr const char* video_name = "video.avi";
 
  private:
   std::shared_ptr<PictureStrip> strip_ = std::make_shared<PictureStrip>();
   std::shared_ptr<TrackView> view_ = std::make_shared<TrackView>();
+  std::shared_ptr<ErrorPictures> errors_;  // where they are asked for
+  int last_frame_ = 0;  // of the stream's where it is 0
   std::filesystem::path video_file_;
   std::optional<Augmentation> augmentation_;  // where someone sees it
   std::optional<TrackVideo> video_;

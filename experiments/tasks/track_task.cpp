@@ -42,7 +42,7 @@ class TrackTask : public Task {
 
   ArtefactNames names() const override {
     ArtefactNames names;
-    names.pictures = {TrackPictures::strip_name};
+    names.pictures = {TrackPictures::strip_name, TrackPictures::errors_name};
     names.view = true;
     names.files = TrackLog::files();
     names.files.insert(names.files.end(), {model_ply, model_glb, TrackPictures::video_name});
@@ -54,6 +54,7 @@ class TrackTask : public Task {
     const TrackingMethod method = make_tracking_method(run.values, workbench.registry());
     const auto stream = workbench.open(run.values);
     const Tracker tracker(method, stream->rig(), workbench.device(run.values));
+    if (run.values.has("record")) make_error_pictures(run.values.section("record"));
     if (run.values.has("augmentation")) read_object(run.values.section("augmentation"));
     CheckedStream(*stream).next();
     return stream->warnings();

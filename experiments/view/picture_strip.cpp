@@ -1,80 +1,17 @@
 #include "experiments/view/picture_strip.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-
-#include "experiments/report/sheet.h"
 #include "experiments/view/frame_picture.h"
-#include "experiments/view/model_distance.h"
-#include "experiments/view/panel.h"
 
 namespace pliant {
-namespace {
-
-constexpr int panel_width = 150;
-constexpr int most_panel_height = 220;
-constexpr int gap = 4;
-constexpr int margin = 14;
-constexpr int header = 22;
-constexpr int moments_a_row = 4;
-const cv::Scalar paper(255, 255, 255);
-
-cv::Size panel_size(const PixelWindow& window) {
-  return {panel_width,
-          std::clamp(panel_width * window.height / std::max(window.width, 1), 1, most_panel_height)};
-}
-
-std::string caption_of(const FrameRecord& record) {
-  const std::string frame = fmt::format("frame {}: ", record.number);
-  return frame + (record.state == FrameState::tracked ? fmt::format("error {:.2f} mm", record.pose.mean_error)
-                                                      : to_string(record.state));
-}
-
-}  // namespace
 
 bool PictureStrip::show(const TrackedFrame& tracked) {
-  if (tracked.model == nullptr || !moments_.takes_next()) return true;
-  const cv::Size size = panel_size(tracked.model->window);
-  cv::Mat model(size, CV_8UC3);
-  paint_surface(model, PanelPixels(size, tracked.model->window), *tracked.model);
-  moments_.keep({caption_of(tracked.record), model, model_distances(*tracked.seen, *tracked.model)});
+  if (tracked.model != nullptr && moments_.takes_next()) moments_.keep(moment_of(tracked));
   return true;
-}
-
-/// Caption, model and distances of a moment.
-cv::Mat PictureStrip::draw(const Moment& moment, const ColorScale& scale) const {
-  const cv::Size size = moment.model.size();
-  cv::Mat pair(header + size.height, 2 * size.width + gap, CV_8UC3, paper);
-  draw_text(pair, moment.caption, {0, header - 8}, 0.4, 4, ink);
-  moment.model.copyTo(pair(cv::Rect({0, header}, size)));
-  const PixelWindow window{0, 0, moment.distances.width(), moment.distances.height()};
-  paint_distances(pair(cv::Rect({size.width + gap, header}, size)), PanelPixels(size, window),
-                  moment.distances, window, scale);
-  return pair;
 }
 
 std::vector<std::uint8_t> PictureStrip::png() const {
   const auto& moments = moments_.kept();
-  const ColorScale scale = error_scale(moments[moments.size() / 2].distances.pixels());
-  const int count = static_cast<int>(moments.size());
-  const cv::Size cell(2 * panel_width + gap + margin, moments[0].model.rows + header + margin);
-  const int rows = (count + moments_a_row - 1) / moments_a_row;
-  cv::Mat canvas(rows * cell.height + header + 2 * margin,
-                 std::min(count, moments_a_row) * cell.width + margin, CV_8UC3, paper);
-  draw_scale(canvas, {0, margin}, scale);
-  for (int i = 0; i < count; ++i) {
-    const cv::Mat pair = draw(moments[static_cast<std::size_t>(i)], scale);
-    const cv::Point corner(margin + i % moments_a_row * cell.width,
-                           margin + header + i / moments_a_row * cell.height);
-    pair.copyTo(canvas(cv::Rect(corner, pair.size())));
-  }
-  cv::cvtColor(canvas, canvas, cv::COLOR_RGB2BGR);
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", canvas, bytes);
-  return bytes;
+  return draw_moments(moments, error_scale(moments[moments.size() / 2].distances.pixels()), 4);
 }
 
 }  // namespace pliant

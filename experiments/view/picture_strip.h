@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <opencv2/core.hpp>
-#include <string>
 #include <vector>
 
-#include "experiments/report/heat_map.h"
 #include "experiments/view/even_choice.h"
+#include "experiments/view/moment.h"
 #include "experiments/view/track_observer.h"
 
 namespace pliant {
@@ -24,16 +22,8 @@ class PictureStrip : public TrackObserver {
   std::vector<std::uint8_t> png() const;
 
  private:
-  struct Moment {
-    std::string caption;
-    cv::Mat model;           ///< its pixels are Rgb
-    Image<float> distances;  ///< mm; NaN: none
-  };
-
-  cv::Mat draw(const Moment& moment, const ColorScale& scale) const;
-
-  EvenChoice<Moment> moments_{most_moments};
   static constexpr std::size_t most_moments = 8;
+  EvenChoice<Moment> moments_{most_moments};
 };
 
 }  // namespace pliant

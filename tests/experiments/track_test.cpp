@@ -1,6 +1,9 @@
 // `pliant track`: frames one after the other into a model, with what is told of each.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
+#include "experiments/runner/overview.h"
 #include "experiments/runner/runner.h"
 #include "experiments/tasks/json_file.h"
 #include "experiments/view/track_observer.h"
@@ -15,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 const std::string tracked_head =
@@ -119,6 +123,49 @@ TEST_F(TrackTest, LeavesStripViewAndFilm) {
   EXPECT_THAT(text_of("out/index.html"), HasSubstr("class=\"view-figure\""));
   const std::string film = text_of("out/video.avi");
   EXPECT_EQ(film[48], 4) << "pictures, of frames 1, 3, 5 and 7";
+}
+
+TEST_F(TrackTest, AStudyShowsFramesPicturesAndViewsOfRuns) {
+  const std::string text = tracked_head +
+                           "reports: {pictures: {}, view: {}}\n"
+                           "record: {error_at: [3, 6], error_scale: 5}\n"
+                           "sweep: {seed: [1, 2]}\n"
+                           "study:\n"
+                           "  charts:\n"
+                           "    error:\n"
+                           "      {title: Figure 6.4, kind: frames, y_label: mm, limits: {threshold: {value: 2}},\n"
+                           "       series: {rigid: {value: mean_error, where: [seed=1], color: red}}}\n"
+                           "  tables: {t: {title: T, rows: [seed], columns: {error: {value: mean_error}, share: {value: "
+                           "tracked / frames}}}}\n"
+                           "  pictures: {errors: {title: Figure 6.5}}\n"
+                           "  views: {model: {where: [seed=2]}}\n";
+  const ExperimentPlan plan =
+      this->plan(text, {"data.image_width=160", "data.image_height=120", "data.focal_length=131.25"});
+  result_ = run_experiment(*make_task(plan.experiment.values), plan, file("out"), workbench_);
+  const Study study = study_of(plan, result_, workbench_.device(plan.runs[0].values).info(), file("out"));
+  ASSERT_EQ(study.charts[0].series[0].points.size(), 7U);
+  EXPECT_TRUE(std::isnan(study.charts[0].series[0].points[0].value)) << "the model began with it";
+  const auto lines = read_json_lines(file("out/seed=1/frames.jsonl"));
+  EXPECT_EQ(study.charts[0].series[0].points[6].value, lines[6]["mean_error"].get<double>());
+  EXPECT_EQ(study.tables[0].rows[1].cells.at(2), "0.86");
+  ASSERT_EQ(study.pictures.size(), 1U);
+  EXPECT_EQ(study.pictures[0].pictures.size(), 2U);
+  EXPECT_EQ(study.views.size(), 1U);
+  EXPECT_TRUE(study.notes.empty());
+  EXPECT_THAT(text_of("out/charts/error.svg"), HasSubstr("threshold: 2"));
+  EXPECT_THAT(text_of("out/index.html"), AllOf(HasSubstr("Figure 6.4"), HasSubstr("Figure 6.5")));
+}
+
+TEST_F(TrackTest, FramesToBeShownAreNumbers) {
+  for (const char* frame : {"zero", "0", "1.5", "-3"}) {
+    const ExperimentPlan bad = plan(tracked_head + "record: {error_at: [5, " + frame + "]}\n");
+    try {
+      check_experiment(bad, workbench_);
+      ADD_FAILURE() << frame;
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("'" + std::string(frame) + "' in 'error_at' is no frame"));
+    }
+  }
 }
 
 TEST_F(TrackTest, OfSeveralRunsTheNextIsNotBegunAndNoneTakenForWhole) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -21,7 +22,7 @@ class ReproduceTest : public ProgramTest {
   ReproduceTest() {
     const fs::path bin = file("prefix/bin");
     fs::create_directories(bin);
-    fs::create_directories(experiments_ / "chapter5");
+    for (const char* chapter : {"chapter5", "chapter6"}) fs::create_directories(experiments_ / chapter);
     // A link would lead the program back to where it was built.
     fs::copy_file(PLIANT_PROGRAM, bin / "pliant");
     fs::copy(fs::path(PLIANT_EXPERIMENTS) / "methods", experiments_ / "methods");
@@ -31,6 +32,7 @@ class ReproduceTest : public ProgramTest {
     add("chapter5/fig_1.yaml",
         small + "sweep: {data.noise: [0, 1], seed: [1, 2]}\nquick: [seed=1]\n" + study);
     add("chapter5/fig_2.yaml", small + "sweep: {seed: [3, 4]}\nquick: [seed=3]\n");
+    add("chapter6/tracked.yaml", tracked + "sweep: {seed: [1, 2, 3]}\nquick: [seed=2]\n");
   }
 
   void add(const std::string& name, const std::string& text) const {
@@ -40,6 +42,11 @@ class ReproduceTest : public ProgramTest {
   const std::string small =
       "extends: ../methods/ed.yaml\nreports: {}\n"
       "data: {type: synthetic_sheet, image_width: 160, image_height: 120, focal_length: 131.25}\n";
+  const std::string tracked =
+      "reports: {}\nmodel: {type: tsdf, volume: fitted, resolution: 64}\nacquisition: {filter: none}\n"
+      "data: {type: head, image_width: 160, image_height: 120, focal_length: 131.25, frames: 8, "
+      "motion: {rotation_y: 5}}\n"
+      "study: {charts: {error: {title: Figure Six, kind: frames, y_label: mm, series: {e: {value: error_mean}}}}}\n";
   const std::string study =
       "study:\n"
       "  title: Figure One\n"
@@ -65,6 +72,8 @@ TEST_F(ReproduceTest, MakesOnePageOverEverythingAndSaysWhatItSkips) {
   EXPECT_TRUE(fs::exists(file("rep/compare_solvers/compare.json")));
   EXPECT_TRUE(fs::exists(file("rep/fig_1/charts/noise.svg")));
   EXPECT_TRUE(fs::exists(file("rep/fig_1/results.csv")));
+  EXPECT_THAT(page, HasSubstr("Figure Six"));
+  EXPECT_TRUE(fs::exists(file("rep/tracked/seed=2/frames.jsonl")));
 }
 
 TEST_F(ReproduceTest, AChapterByItselfAndWhole) {
@@ -80,7 +89,7 @@ TEST_F(ReproduceTest, AChapterByItselfAndWhole) {
 TEST_F(ReproduceTest, AnUnknownChapterIsAnsweredWithWhatThereIs) {
   const ProgramRun run = call("reproduce chapter4");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("unknown chapter 'chapter4'; expected chapter5; did you mean 'chapter5'?"));
+  EXPECT_THAT(run.err, HasSubstr("unknown chapter 'chapter4'; expected chapter5, chapter6; did you mean 'chapter5'?"));
 }
 
 TEST_F(ReproduceTest, WhatFailsIsReportedAndKeepsNothingElseFromBeingMade) {
@@ -114,6 +123,26 @@ TEST_F(ReproduceTest, GoesOnWhereItWasKilled) {
                              HasSubstr("noise=1,seed=2: taken from the earlier result"),
                              Not(HasSubstr("noise=1,seed=2: measuring")), HasSubstr("seed=4: measuring")));
   EXPECT_THAT(text_of("rep/index.html"), HasSubstr("Figure One"));
+  EXPECT_FALSE(fs::exists(file("rep/unfinished")));
+}
+
+TEST_F(ReproduceTest, ATrackedRunThatIsKilledIsMadeAnewAndFinishedOnesAreTaken) {
+  add("chapter6/tracked.yaml", tracked + "runs: {one: , two: {data: {frames: 100000}}, three: }\n");
+  write("kill.sh",
+        "prefix/bin/pliant reproduce chapter6 --out rep >killed.out 2>&1 &\n"
+        "until [ -s rep/unfinished/tracked/two/frames.jsonl ] || ! kill -0 $!; do sleep 0.02; done\n"
+        "kill -KILL $!\n");
+  ASSERT_EQ(std::system(("cd '" + file("") + "' && sh kill.sh").c_str()), 0) << text_of("killed.out");
+  const std::string finished = text_of("rep/unfinished/tracked/one/frames.jsonl");
+  EXPECT_EQ(std::count(finished.begin(), finished.end(), '\n'), 8);
+  add("chapter6/tracked.yaml", tracked + "runs: {one: , two: , three: }\n");
+  const ProgramRun run = call("reproduce chapter6 --out rep");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("one: taken from the earlier result"),
+                             Not(HasSubstr("two: taken from the earlier result"))));
+  EXPECT_EQ(text_of("rep/tracked/one/frames.jsonl"), finished) << "with its times";
+  const std::string anew = text_of("rep/tracked/two/frames.jsonl");
+  EXPECT_EQ(std::count(anew.begin(), anew.end(), '\n'), 8);
   EXPECT_FALSE(fs::exists(file("rep/unfinished")));
 }
 

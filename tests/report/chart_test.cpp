@@ -137,6 +137,28 @@ TEST(ChartSvg, StackedBarsStandOnEachOther) {
   for (std::size_t i = 2; i < 5; ++i) EXPECT_NEAR(tops[i + 3] + heights[i + 3], tops[i], 0.2);
 }
 
+TEST(ChartSvg, FramesAreALineWithoutMarksThatIsBrokenWhereThereIsNone) {
+  const std::string svg = chart_svg(sample_frames());
+  EXPECT_EQ(count(svg, "class=\"mark"), 0U);
+  EXPECT_THAT(svg, HasSubstr("class=\"line s8\" d=\"M"));
+  EXPECT_THAT(svg, HasSubstr("stroke=\"#d1242f\""));
+  const std::size_t rigid = svg.find("class=\"line s8\" d=");
+  const std::string path = svg.substr(rigid, svg.find("fill", rigid) - rigid);
+  EXPECT_EQ(count(path, "M"), 2U);
+  EXPECT_EQ(count(path, "L"), 53U);
+}
+
+TEST(ChartSvg, LimitsAreDashedAcrossAndAlwaysSeen) {
+  Chart chart = sample_frames();
+  chart.limits = {{"threshold", 9}};
+  const std::string svg = chart_svg(chart);
+  EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));
+  EXPECT_THAT(svg, HasSubstr(">threshold: 9</text>"));
+  const std::vector<double> places = numbers(svg, "line class=\"limit", "y1");
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_GT(places[0], 0);
+}
+
 TEST(ChartSvg, NamesTheSeriesWhereThereAreSeveral) {
   EXPECT_THAT(chart_svg(sample_lines()), HasSubstr(">adaptive nodes &lt;AdNodes&gt;</text>"));
   EXPECT_THAT(chart_svg(steps({1, 2})), Not(HasSubstr(">E</text>")));

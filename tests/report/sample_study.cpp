@@ -21,6 +21,24 @@ Chart sample_lines() {
   return chart;
 }
 
+Chart sample_frames() {
+  Chart chart;
+  chart.name = "frames";
+  chart.title = "Figure 6.4: tracking error over frames, cheeks";
+  chart.kind = Chart::Kind::frames;
+  chart.x_label = "frame";
+  chart.y_label = "mm";
+  chart.series = {{"rigid", {}, 8}, {"rigid + non-rigid", {}, 0}};
+  for (int frame = 1; frame <= 60; ++frame) {
+    const double bump = std::exp(-std::pow((frame - 30) / 8.0, 2));
+    const bool is_lost = frame > 28 && frame < 34;
+    chart.series[0].points.push_back({double(frame), "", is_lost ? std::nan("") : 1.1 + 4 * bump});
+    chart.series[1].points.push_back({double(frame), "", 1 + bump});
+  }
+  chart.limits = {{"threshold", 2}};
+  return chart;
+}
+
 Chart sample_bars(Chart::Kind kind) {
   Chart chart;
   const bool is_stacked = kind == Chart::Kind::stacked_bars;

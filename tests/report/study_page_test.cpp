@@ -2,13 +2,16 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/io/test_files.h"
 #include "tests/report/sample_study.h"
 
-namespace pliant {
+namespace pliant::testing {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class StudyPageFiles : public TestFiles {};
 
 TEST(StudyPage, HoldsAllOfEachStudy) {
   const std::string page = make_study_page("Chapter <5>", "lead & more", sample_studies());
@@ -42,6 +45,18 @@ TEST(StudyPage, LeadsToEveryStudyAndGivesNoIdTwice) {
   EXPECT_THAT(page.body, HasSubstr("id=\"figure-5-11-speed\""));
 }
 
+TEST_F(StudyPageFiles, ShowsPicturesOfRunsSideBySide) {
+  Study study;
+  study.name = study.title = "faces";
+  study.pictures = {{"errors", "Figure 6.5", "by distance", {{"rigid <only>", write("a.png", "abc")}}}};
+  const Page page = study_page("", "", {study});
+  for (const char* text : {"id=\"faces-errors\"", "Figure 6.5", "by distance", "alt=\"rigid &lt;only&gt;\"",
+                           "data:image/png;base64,YWJj"})
+    EXPECT_THAT(page.body, HasSubstr(text));
+  study.pictures[0].pictures[0].file = file("missing.png");
+  EXPECT_THAT(data_error_of([&] { study_page("", "", {study}); }), HasSubstr("missing.png"));
+}
+
 TEST(StudyPage, OmitsWhatThereIsNot) {
   Study bare;
   bare.name = bare.title = "bare";
@@ -62,4 +77,4 @@ TEST(HtmlPage, SaysSoWhereFiguresCannotMove) {
 }
 
 }  // namespace
-}  // namespace pliant
+}  // namespace pliant::testing

@@ -27,6 +27,26 @@ test("frame, path and camera are drawn, and each layer can be switched", async (
   for (const box of (await boxes.all()).reverse()) await changes(canvas, () => box.click(), await box.inputValue());
 });
 
+test("the chart over frames is drawn, and tells the value of a frame", async () => {
+  const plot = page.locator(".chart-live");
+  await plot.scrollIntoViewIfNeeded();
+  assert.ok(await colorsOf(plot.locator("canvas")) > 8);
+  const box = await plot.locator(".u-over").boundingBox();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+  const legend = await plot.locator(".u-legend").innerText();
+  assert.match(legend, /rigid \+ non-rigid[^]*1\.9\d+ at (29|3\d)/);
+  assert.match(legend, /rigid[^]*at (28|34)/, "the nearest frame that was not lost");
+});
+
+test("pictures of runs stand side by side, and are seen", async () => {
+  const pictures = page.locator(".picture img");
+  assert.equal(await pictures.count(), 2);
+  for (const picture of await pictures.all())
+    assert.ok(await picture.evaluate((image) => image.complete && image.naturalWidth > 0));
+  const [left, right] = [await pictures.nth(0).boundingBox(), await pictures.nth(1).boundingBox()];
+  assert.ok(right.x > left.x && Math.abs(right.y - left.y) < 2);
+});
+
 test("the slider goes through the frames, and play does", async () => {
   assert.match(await page.locator(".view-timeline label").innerText(), /^frame/);
   const status = page.locator(".view-status");

@@ -27,6 +27,13 @@ pliant::Study tracked_frames(const std::filesystem::path& folder) {
   pliant::Study study;
   study.name = study.title = "frames";
   study.views = {{"tracked frames", folder / "frames.json"}};
+  study.charts = {pliant::sample_frames()};
+  const auto png = pliant::sample_frames(4, 1).picture;
+  write(folder / "errors.png", {png.begin(), png.end()});
+  study.pictures = {{"errors",
+                     "Figure 6.5: colour-coded error",
+                     "Frames 90 and 150.",
+                     {{"rigid only", folder / "errors.png"}, {"NRAdaptive", folder / "errors.png"}}}};
   return study;
 }
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "experiments/study/study_section.h"
@@ -28,11 +29,17 @@ std::vector<RunRow> runs() {
   return rows;
 }
 
+/// Of a run three frames, in the second of which it was lost; their error is 100 * method + seed + frame.
+std::vector<Numbers> frames_of(const RunRow& row) {
+  const double error = (row.on("method") == "ED" ? 100 : 200) + std::stod(*row.on("seed"));
+  return {{{"frame", 1}, {"error", error + 1}}, {{"frame", 2}}, {{"frame", 3}, {"error", error + 3}}};
+}
+
 Study study(const std::string& yaml, const std::vector<RunRow>& rows = runs()) {
   const ParameterTable table{group("study", study_table())};
   const Experiment experiment = load_experiment(
       {ConfigText{yaml, "exp.yaml", std::filesystem::current_path()}, {}, {}, {}}, table, Registry());
-  return make_study(experiment.values.section("study"), rows);
+  return make_study(experiment.values.section("study"), rows, frames_of);
 }
 
 std::string error_of(const std::string& yaml) {
@@ -137,6 +144,73 @@ TEST(StudyChart, LeavesOutWhatHasNoNumbersAndSaysSo) {
                                                 "'metrics.error'?")));
 }
 
+TEST(StudyChart, GoesOverTheFramesOfRuns) {
+  const Study made = study(R"(
+study:
+  charts:
+    error:
+      title: t
+      kind: frames
+      y_label: mm
+      where: [set=1]
+      series:
+        rigid: {value: error, where: [method=ED], color: red}
+        of each: {value: 2 * error, by: method}
+      limits:
+        threshold: {value: metrics.error, where: [method=ED]}
+        constant: {value: 3}
+)");
+  const Chart& chart = made.charts[0];
+  EXPECT_EQ(chart.kind, Chart::Kind::frames);
+  EXPECT_EQ(chart.x_label, "frame");
+  ASSERT_THAT(chart.series, SizeIs(3));
+  ASSERT_TRUE(chart.series[0].color);
+  EXPECT_EQ(chart_colors()[*chart.series[0].color], "red");
+  EXPECT_FALSE(chart.series[1].color);
+  ASSERT_THAT(chart.series[0].points, SizeIs(3));
+  EXPECT_EQ(chart.series[0].points[2].x, 3);
+  EXPECT_NEAR(chart.series[0].points[2].value, 104.5, 1e-12) << "the mean over the seeds";
+  EXPECT_EQ(chart.series[0].points[2].count, 2);
+  EXPECT_TRUE(std::isnan(chart.series[0].points[1].value)) << "lost";
+  EXPECT_EQ(chart.series[2].name, "AdNodes, of each");
+  EXPECT_NEAR(chart.series[2].points[0].value, 405, 1e-12);
+  ASSERT_THAT(chart.limits, SizeIs(2));
+  EXPECT_NEAR(chart.limits[0].value, 11.15, 1e-12);
+  EXPECT_EQ(chart.limits[1].value, 3);
+  EXPECT_THAT(made.notes, IsEmpty());
+}
+
+TEST(StudyChart, OverFramesSaysWhatItLacksAndWhatHasNoPlace) {
+  const auto chart = [](const std::string& more) {
+    return "study: {charts: {c: {title: t, kind: frames, y_label: mm, " + more +
+           ", series: {e: {value: eror}}}}}\n";
+  };
+  EXPECT_THAT(study(chart("text: none")).notes,
+              ElementsAre(HasSubstr("no frame has the number 'eror'; did you mean 'error'?")));
+  EXPECT_THAT(error_of(chart("over: set")), HasSubstr("'over' has no place in a chart over frames"));
+  EXPECT_THAT(error_of(chart("x: nodes")), HasSubstr("'x' has no place"));
+  EXPECT_THAT(error_of("study: {charts: {c: {title: t, y_label: mm, series: {e: {value: nodes}}}}}\n"),
+              HasSubstr("'over' is missing; expected an axis of the sweep"));
+}
+
+TEST(FrameNumbers, HaveTruthsAndNamesWithDots) {
+  const Numbers numbers = numbers_of_frame({{"frame", 7}, {"registered", true}, {"error", {{"rotation", 2}}}});
+  EXPECT_THAT(numbers, ElementsAre(testing::Pair("error.rotation", 2), testing::Pair("frame", 7),
+                                   testing::Pair("registered", 1)));
+}
+
+TEST(StudyPictures, AreThoseOfAllRunsThatFit) {
+  const Study made = study(
+      "study: {pictures: {two: {title: t, where: [set=2, seed=1]}, strip: {title: s, picture: strip, where: "
+      "[set=1, seed=1, method=ED]}}}\n");
+  ASSERT_THAT(made.pictures, SizeIs(2));
+  ASSERT_THAT(made.pictures[0].pictures, SizeIs(2));
+  EXPECT_EQ(made.pictures[0].pictures[1].caption, "AdNodes");
+  EXPECT_EQ(made.pictures[0].pictures[1].file.string(), "method=AdNodes,set=2,seed=1/errors.png");
+  EXPECT_EQ(made.pictures[1].pictures[0].file.string(), "method=ED,set=1,seed=1/strip.png");
+  EXPECT_EQ(made.pictures[1].pictures[0].caption, "method=ED,set=1,seed=1");
+}
+
 TEST(StudyTable, HasARowForEachCombination) {
   const Study made = study(R"(
 study:
@@ -173,6 +247,24 @@ study:
   EXPECT_NEAR(made.findings[1].values[0].second, 12.2, 1e-12);
   EXPECT_EQ(made.findings[2].verdict, Finding::Verdict::unknown);
   EXPECT_THAT(made.findings[2].reason, HasSubstr("did you mean 'metrics.error'?"));
+}
+
+TEST(StudyClaim, IsJudgedOverSomeFrames) {
+  const Study made = study(R"(
+study:
+  claims:
+    low: {claim: low, values: {a: {value: error, frames: [2, 3], where: [method=ED, set=1]}}, holds: a < 104.6}
+    none: {claim: none, values: {a: {value: error, frames: [4, 9]}}, holds: a > 0}
+  tables:
+    all: {title: t, rows: [method], columns: {error: {value: error, frames: [1, 3], where: [seed=1]}}}
+)");
+  EXPECT_NEAR(made.findings[0].values[0].second, 104.5, 1e-12) << "of frame 3, the mean over the seeds";
+  EXPECT_EQ(made.findings[0].verdict, Finding::Verdict::confirmed);
+  EXPECT_EQ(made.findings[1].reason, "no run has 'a'");
+  EXPECT_THAT(made.tables[0].rows[0].cells, ElementsAre("ED", "103.00"));
+  EXPECT_THAT(error_of("study: {claims: {c: {claim: c, values: {a: {value: error, frames: [3, 2]}}, holds: a < "
+                       "1}}}\n"),
+              HasSubstr("'frames' ends before it begins"));
 }
 
 TEST(StudyClaim, IsJudgedForEachValueOnAnAxis) {

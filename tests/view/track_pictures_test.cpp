@@ -6,6 +6,7 @@
 #include <set>
 
 #include "experiments/view/clustered_mesh.h"
+#include "experiments/view/error_pictures.h"
 #include "experiments/view/even_choice.h"
 #include "experiments/view/picture_strip.h"
 #include "experiments/view/track_video.h"
@@ -74,6 +75,32 @@ TEST(PictureStrip, ShowsTheModelAndItsErrors) {
   };
   const auto error = colors_of(ColorScale::Map::error);
   EXPECT_TRUE(shows(error[255]) && shows(error[0]) && shows(no_color));
+}
+
+TEST(ErrorPictures, ShowsTheFramesThatAreAskedForOnAScaleOfTheirOwn) {
+  SampleTracked sample;
+  const auto widths_and_colors = [&](std::set<int> frames, float highest) {
+    ErrorPictures pictures(std::move(frames), highest);
+    EXPECT_TRUE(pictures.empty());
+    for (int i = 1; i <= 5; ++i) {
+      sample.record.number = i;
+      EXPECT_TRUE(pictures.show(i == 1 ? sample.waiting() : sample.tracked()));
+    }
+    if (pictures.empty()) return std::pair(0, false);
+    const cv::Mat picture = cv::imdecode(pictures.png(), cv::IMREAD_COLOR);
+    const Rgb wall = colors_of(ColorScale::Map::error)[color_index({ColorScale::Map::error, 0, highest}, 4)];
+    bool has_wall = false;
+    for (int y = 0; y < picture.rows; ++y)
+      for (int x = 0; x < picture.cols; ++x)
+        has_wall |= picture.at<cv::Vec3b>(y, x) == cv::Vec3b(wall.b, wall.g, wall.r);
+    return std::pair(picture.cols, has_wall);
+  };
+  const auto [one, one_has_wall] = widths_and_colors({3}, 10);
+  const auto [two, two_has_wall] = widths_and_colors({2, 5, 99}, 40);
+  EXPECT_TRUE(one_has_wall && two_has_wall) << "4 mm in the colour that they have on each scale";
+  EXPECT_GT(two, 1.5 * one);
+  EXPECT_EQ(widths_and_colors({2, 3, 4, 5}, 10).first, two) << "two a row";
+  EXPECT_EQ(widths_and_colors({1, 6}, 10).first, 0) << "no model yet, and past the end";
 }
 
 /// The pictures of a film, in their order; its chunks are walked through as players do.

@@ -10,11 +10,17 @@ function aligned(chart, places, placeOf) {
   return { data: [places, ...values], points };
 }
 
+/** Over the frames of a stream: without marks, and broken where a frame has no value. */
+export function isDense(chart) {
+  return chart.kind === "frames";
+}
+
 export function lineData(chart) {
   const isThere = (point) => point.x !== null && point.value !== null &&
     (!chart.x.is_log || point.x > 0) && (!chart.y.is_log || point.value > 0);
   const series = chart.series.map((one) => ({ ...one, points: one.points.filter(isThere) }));
-  const places = [...new Set(series.flatMap((one) => one.points.map((point) => point.x)))].sort((a, b) => a - b);
+  const placed = isDense(chart) ? chart.series : series;  // where it is broken there is a place, too
+  const places = [...new Set(placed.flatMap((one) => one.points.map((point) => point.x)))].sort((a, b) => a - b);
   return aligned({ ...chart, series }, places, (point) => point.x);
 }
 

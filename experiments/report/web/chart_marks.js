@@ -30,6 +30,29 @@ function whisker(plot, point, x, half, color) {
   paint.stroke();
 }
 
+/** Dashed across the plot, each with its name above its end. */
+export function limitPainter(limits, ink, font) {
+  return (plot) => {
+    const { ctx: paint, bbox } = plot;
+    paint.save();
+    paint.strokeStyle = paint.fillStyle = ink();
+    paint.lineWidth = 1.3 * devicePixelRatio;
+    paint.setLineDash([7 * devicePixelRatio, 5 * devicePixelRatio]);
+    paint.font = font.replace("12px", `${12 * devicePixelRatio}px`);
+    paint.textAlign = "right";
+    paint.textBaseline = "bottom";
+    for (const limit of limits) {
+      const y = plot.valToPos(limit.value, "y", true);
+      paint.beginPath();
+      paint.moveTo(bbox.left, y);
+      paint.lineTo(bbox.left + bbox.width, y);
+      paint.stroke();
+      paint.fillText(limit.text, bbox.left + bbox.width - 4 * devicePixelRatio, y - 3 * devicePixelRatio);
+    }
+    paint.restore();
+  };
+}
+
 export function linePainter(points, color, paper) {
   return (plot) => {
     const { ctx: paint } = plot;

@@ -1,14 +1,14 @@
 // Draws each chart of the page anew, so that its values can be read off.
 import uPlot from "uplot";
-import { barPainter, linePainter } from "./chart_marks.js";
-import { barData, lineData, stacked } from "./chart_data.js";
+import { barPainter, limitPainter, linePainter } from "./chart_marks.js";
+import { barData, isDense, lineData, stacked } from "./chart_data.js";
 import { dataOf, onOtherColors, variable, whenSeen } from "./page_data.js";
 
 const font = "12px system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
 const height = 320;
 const letter = 6.8;
 
-const color = (series) => variable(`--s${series % 8}`);
+const colorsOf = (chart) => (series) => variable(`--s${chart.series[series].color}`);
 const longest = (labels) => Math.max(0, ...labels.map((label) => label.length)) * letter;
 
 function axisStyle() {
@@ -61,11 +61,12 @@ function nearestKnown(plot, series, hovered) {
 }
 
 function lineSeries(chart, points) {
+  const color = colorsOf(chart);
   return chart.series.map((series, index) => ({
     label: series.name,
     stroke: () => color(index),
     width: 2,
-    spanGaps: true,
+    spanGaps: !isDense(chart),
     points: { show: false },
     value: (plot, _, number, at) => {
       const point = at === null ? null : points[number - 1][at];
@@ -75,6 +76,7 @@ function lineSeries(chart, points) {
 }
 
 function barSeries(chart, points) {
+  const color = colorsOf(chart);
   return chart.series.map((series, index) => ({
     label: series.name,
     stroke: () => color(index),
@@ -102,7 +104,8 @@ function lineChart(chart, width) {
   options.scales.x = { time: false, distr: chart.x.is_log ? 3 : 1, range: () => [chart.x.low, chart.x.high] };
   options.axes = [numberAxis(chart.x), yAxis(chart.y)];
   options.series = [{ label: chart.x.label, value: () => "" }, ...lineSeries(chart, points)];
-  options.hooks = { draw: [linePainter(points, color, () => variable("--card"))] };
+  const marks = isDense(chart) ? [] : [linePainter(points, colorsOf(chart), () => variable("--card"))];
+  options.hooks = { draw: [...marks, limitPainter(chart.limits, () => variable("--ink"), font)] };
   return { options, data };
 }
 
@@ -113,7 +116,8 @@ function barChart(chart, width) {
   options.axes = [wordAxis(chart.x, chart.labels, width), yAxis(chart.y)];
   options.series = [{ label: chart.x.label, value: (_, at) => (at === null ? "" : chart.labels[at]) },
     ...barSeries(chart, points)];
-  options.hooks = { draw: [barPainter(points, stacked(chart), color, () => variable("--ink"))] };
+  options.hooks = { draw: [barPainter(points, stacked(chart), colorsOf(chart), () => variable("--ink")),
+    limitPainter(chart.limits, () => variable("--ink"), font)] };
   options.cursor.points = { show: false };
   return { options, data };
 }
@@ -125,7 +129,7 @@ function show(figure) {
   place.className = "live chart-live";
   picture.after(place);
   picture.hidden = true;
-  const make = chart.kind === "lines" ? lineChart : barChart;
+  const make = chart.kind === "lines" || isDense(chart) ? lineChart : barChart;
   let plot;
   const draw = () => {
     plot?.destroy();
