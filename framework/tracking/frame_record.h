@@ -29,9 +29,10 @@ struct FrameRecord {
   FrameState state = FrameState::waiting;
   std::string reason;  ///< why it is lost or waiting; else empty
   Eigen::Isometry3d camera_from_model = Eigen::Isometry3d::Identity();  ///< mm; the last one found
-  PoseEstimate pose;    ///< of a frame that was tracked or lost
-  double total_ms = 0;  ///< from the frame's images to where the next frame may come
-  StageTimes time_ms;   ///< of the host by stage, and of the device while it measures them
+  bool relocalized = false;  ///< tracked from where a relocalizer was asked, not from the pose before
+  PoseEstimate pose;         ///< of a frame that was tracked or lost
+  double total_ms = 0;       ///< from the frame's images to where the next frame may come
+  StageTimes time_ms;        ///< of the host by stage, and of the device while it measures them
 };
 
 }  // namespace pliant

@@ -12,6 +12,8 @@ std::vector<Parameter> tracking_rows() {
       component("segmentation", Segmentation::kind, "none").doc("What of the frames is tracked [3.1]"),
       component("pose", PoseEstimatorKind::kind, "icp_projective")
           .doc("How the model is found again in each frame that is tracked [3.3]"),
+      component("relocalizer", RelocalizerKind::kind, "none")
+          .doc("How it is found again where it moved further than that reaches [3.3]"),
   };
 }
 
@@ -19,7 +21,8 @@ TrackingMethod make_tracking_method(const Parameters& experiment, const Registry
   return {make_acquisition(experiment.section("acquisition"), registry),
           registry.make<Segmentation>(experiment.section("segmentation")),
           registry.make<PoseEstimatorKind>(experiment.section("pose")),
-          registry.make<ModelKind>(experiment.section("model"))};
+          registry.make<ModelKind>(experiment.section("model")),
+          registry.make<RelocalizerKind>(experiment.section("relocalizer"))};
 }
 
 }  // namespace pliant

@@ -8,6 +8,7 @@
 #include "framework/imaging/segmentation.h"
 #include "framework/model/reference_model.h"
 #include "framework/pose/pose_estimator.h"
+#include "framework/pose/relocalizer.h"
 
 namespace pliant {
 
@@ -17,6 +18,7 @@ struct TrackingMethod {
   std::unique_ptr<Segmentation> segmentation;
   std::unique_ptr<PoseEstimatorKind> pose;
   std::unique_ptr<ModelKind> model;
+  std::unique_ptr<RelocalizerKind> relocalizer;
 };
 
 /// The rows of an experiment file that describe it. An experiment tracks where it has a `model`.
