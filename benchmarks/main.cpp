@@ -40,6 +40,8 @@ int main(int argument_count, char** arguments) {
   const auto* pose = add_mode("pose", "Rigid tracking of sequences whose poses are known, beside OpenCV's");
   const auto* tracking = add_mode(
       "tracking", "Stages of a tracked frame beside OpenCV's; ratio_to_opencv: our time over OpenCV's");
+  const auto* relocalisation = add_mode(
+      "relocalisation", "A head that leaps by 100 mm and 30 degrees: how often each relocalizer finds it");
   CLI11_PARSE(app, argument_count, arguments);
   try {
     if (solver->parsed()) return pliant::bench::run_solver_mode(options);
@@ -48,6 +50,7 @@ int main(int argument_count, char** arguments) {
     if (render->parsed()) return pliant::bench::run_render_mode(options);
     if (pose->parsed()) return pliant::bench::run_pose_mode(options);
     if (tracking->parsed()) return pliant::bench::run_tracking_mode(options);
+    if (relocalisation->parsed()) return pliant::bench::run_relocalisation_mode(options);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 1;

@@ -68,6 +68,16 @@ Preprocessor::Preprocessor(Device& device, const Rig& rig, const Acquisition& ac
       depth_(region ? checked(*region, rig.depth) : whole_image(rig.depth)),
       surface_(unwritten_surface(rig.depth, depth_.window)) {}
 
+void Preprocessor::move_to(const PixelWindow& region) {
+  const PixelWindow window = checked(region, rig_.depth);
+  if (window.width != depth_.window.width || window.height != depth_.window.height) {
+    depth_ = DepthMap(window);
+    surface_ = unwritten_surface(rig_.depth, window);
+  }
+  depth_.window = window;
+  surface_.window = window;
+}
+
 void Preprocessor::process(const Frame& frame) {
   check(frame, rig_, "the frame's");
   depth_.take(frame, acquisition_.farthest());

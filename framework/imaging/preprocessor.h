@@ -29,15 +29,19 @@ Acquisition make_acquisition(const Parameters& experiment, const Registry& regis
 /// The image without what lies beyond `farthest` mm, 0 there: what a Segmentation looks at.
 DepthImage cut_depth(const DepthImage& depth, float farthest);
 
-/// Makes of each frame of a stream what tracking looks at, on one device, in the same window of the image and
-/// the same buffers from frame to frame: after the third none is made. A frame without depth gives maps full
-/// of holes.
+/// Makes of each frame of a stream what tracking looks at, on one device, in the same window of the image,
+/// unless it is moved, and the same buffers from frame to frame: after the third none is made. A frame
+/// without depth gives maps full of holes.
 class Preprocessor {
  public:
   /// `acquisition` must outlive this. `region`: the window, within the image of the rig's depth camera
   /// (throws std::invalid_argument); without one the whole image.
   Preprocessor(Device& device, const Rig& rig, const Acquisition& acquisition,
                const std::optional<PixelWindow>& region = std::nullopt);
+
+  /// Looks at another window from the next frame on; one of the same size takes no new buffer. Throws
+  /// std::invalid_argument where it is not within the image.
+  void move_to(const PixelWindow& region);
 
   /// Uploads the frame's depth and enqueues the rest; `frame` may change at once. Throws DataError, which
   /// names both sizes, when the frame does not fit the rig.

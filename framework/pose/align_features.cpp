@@ -2,155 +2,40 @@
 
 #include <fmt/format.h>
 
-#include <flann/algorithms/dist.h>
-#include <flann/algorithms/kdtree_single_index.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <future>
 #include <memory>
-#include <opencv2/features2d.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "framework/core/error.h"
-#include "framework/geometry/has_point.h"
+#include "framework/pose/color_features.h"
+#include "framework/pose/feature_index.h"
 
 namespace pliant {
 namespace {
 
-struct Features {
-  cv::Mat descriptors;  // float, one row a feature
-  std::vector<Eigen::Vector3d> points;
-  std::vector<double> radii;  // mm on the surface
-};
-
-cv::Mat to_grey(const ColorImage& color) {
-  const cv::Mat rgb(color.height(), color.width(), CV_8UC3, const_cast<Rgb*>(color.data()));
-  cv::Mat grey;
-  cv::cvtColor(rgb, grey, cv::COLOR_RGB2GRAY);
-  return grey;
-}
-
-/// Where features may lie: on the object and with depth to back-project them.
-cv::Mat usable_pixels(const Frame& frame) {
-  cv::Mat usable(frame.depth.height(), frame.depth.width(), CV_8U);
-  for (int v = 0; v < usable.rows; ++v) {
-    for (int u = 0; u < usable.cols; ++u) {
-      usable.at<std::uint8_t>(v, u) = has_point(frame, u, v) ? 255 : 0;
-    }
-  }
-  return usable;
-}
-
-/// The usable part of an image with what descriptors reach beyond it: detection takes as long as the image is
-/// large. It begins where the coarse levels of the scale space have their samples.
-cv::Rect part_to_search(const cv::Mat& usable) {
-  constexpr int margin = 32;
-  constexpr int coarsest_sample = 16;
-  const cv::Rect used = cv::boundingRect(usable);
-  const int left = std::max(0, used.x - margin) / coarsest_sample * coarsest_sample;
-  const int top = std::max(0, used.y - margin) / coarsest_sample * coarsest_sample;
-  return {left, top, std::min(usable.cols, used.br().x + margin) - left,
-          std::min(usable.rows, used.br().y + margin) - top};
-}
-
-const cv::Point2d centre(0.5, 0.5);  // of a pixel, from its corner
-
-cv::Mat scaled(const cv::Mat& image, double scale, int interpolation) {
-  cv::Mat result;
-  cv::resize(image, result, {}, scale, scale, interpolation);
-  return result;
-}
-
-/// The depth of the plane through the depths around a place in the image, without what lies in front or
-/// behind: a single one carries all its noise, which is far greater than what a feature is astray in the
-/// image.
-double depth_around(const Frame& frame, const cv::Mat& usable, const cv::Point2d& at) {
-  constexpr int radius = 2;            // pixels
-  constexpr double same_surface = 30;  // mm
-  const cv::Point middle(cvRound(at.x), cvRound(at.y));
-  const auto depth = [&](const cv::Point& pixel) -> double { return frame.depth(pixel.x, pixel.y); };
-  const auto is_near = [&](const cv::Point& pixel) {
-    return pixel.inside({{0, 0}, usable.size()}) && usable.at<std::uint8_t>(pixel) != 0 &&
-           std::abs(depth(pixel) - depth(middle)) < same_surface;
-  };
-  double sum = 0;
-  int count = 0;
-  cv::Point2d rise(0, 0);
-  cv::Point2d run(0, 0);
-  for (int dv = -radius; dv <= radius; ++dv) {
-    for (int du = -radius; du <= radius; ++du) {
-      const cv::Point step(du, dv);
-      // Only with the pixel across, so that mean and slopes do not depend on each other.
-      if (!is_near(middle + step) || !is_near(middle - step)) continue;
-      sum += depth(middle + step);
-      rise += cv::Point2d(step) * depth(middle + step);
-      run += cv::Point2d(du * du, dv * dv);
-      ++count;
-    }
-  }
-  const cv::Point2d beside = at - cv::Point2d(middle);
-  double result = sum / count;
-  if (run.x > 0) result += beside.x * rise.x / run.x;
-  if (run.y > 0) result += beside.y * rise.y / run.y;
-  return result;
-}
-
-/// An object that covers few pixels is not shrunk as much as asked for: it would have no features left.
-double scale_for(const Frame& source, double scale) {
-  constexpr double fewest_pixels = 6000;
-  const int pixels = cv::countNonZero(usable_pixels(source));
-  return pixels > 0 ? std::clamp(std::sqrt(fewest_pixels / pixels), scale, 1.0) : scale;
-}
-
-Features find_features(const Frame& frame, const Camera& camera, double scale, const std::string& which) {
-  if (frame.color.empty()) {
+/// Throws DataError unless there is enough to align.
+ColorFeatures find_features(const Frame& frame, const Camera& camera, double scale,
+                            const std::string& which) {
+  if (frame.color.empty())
     throw DataError(fmt::format("{}: alignment `features` needs a colour image", which));
-  }
-  // A quarter of OpenCV's contrast threshold: cloth has little contrast, and the ratio test sorts out.
-  const auto sift = cv::SIFT::create(0, 3, 0.01);
-  std::vector<cv::KeyPoint> keypoints;
-  cv::Mat descriptors;
-  const cv::Mat usable = usable_pixels(frame);
-  const cv::Rect part = part_to_search(usable);
-  sift->detectAndCompute(scaled(to_grey(frame.color)(part), scale, cv::INTER_AREA),
-                         scaled(usable(part), scale, cv::INTER_NEAREST), keypoints, descriptors);
-  Features features;
-  for (std::size_t i = 0; i < keypoints.size(); ++i) {
-    const cv::Point2d at = (cv::Point2d(keypoints[i].pt) + centre) / scale - centre + cv::Point2d(part.tl());
-    const cv::Point pixel(cvRound(at.x), cvRound(at.y));
-    if (!pixel.inside({{0, 0}, usable.size()}) || usable.at<std::uint8_t>(pixel) == 0) continue;
-    features.points.push_back(camera.unproject(at.x, at.y, depth_around(frame, usable, at)));
-    features.radii.push_back(keypoints[i].size / 2 / scale * features.points.back().z() / camera.fx);
-    features.descriptors.push_back(descriptors.row(static_cast<int>(i)));
-  }
-  if (features.points.size() < 2) {
+  ColorFeatures features = find_color_features(frame, camera, scale);
+  if (features.points.size() < 2)
     throw DataError(
         fmt::format("{}: {} colour features with depth, too few to align", which, features.points.size()));
-  }
   return features;
 }
 
-flann::Matrix<float> rows_of(cv::Mat& descriptors) {
-  return {descriptors.ptr<float>(), static_cast<std::size_t>(descriptors.rows),
-          static_cast<std::size_t>(descriptors.cols)};
-}
-
-PointMatches match(Features& source, Features& target, double ratio) {
-  // The single tree searches exactly; FLANN's randomised trees are shuffled by std::random_device and
-  // give other matches in every run.
-  flann::KDTreeSingleIndex<flann::L2<float>> index(rows_of(target.descriptors));
-  index.buildIndex();
-  std::vector<std::vector<int>> indices;
-  std::vector<std::vector<float>> squared;
-  index.knnSearch(rows_of(source.descriptors), indices, squared, 2,
-                  flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED));
+PointMatches match(ColorFeatures& source, ColorFeatures& target, double ratio) {
+  FeatureIndex index(target.descriptors, target.points.size());
+  const FeatureNeighbours found = index.nearest(source.descriptors, source.points.size(), 2);
   PointMatches matches;
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    if (!(squared[i][0] < ratio * ratio * squared[i][1])) continue;
-    const auto found = static_cast<std::size_t>(indices[i][0]);
-    matches.add(source.points[i], target.points[found],
-                static_cast<float>(feature_confidence(std::max(source.radii[i], target.radii[found]))));
+  for (std::size_t i = 0; i < found.features.size(); ++i) {
+    if (!(found.squared[i][0] < ratio * ratio * found.squared[i][1])) continue;
+    const auto nearest = static_cast<std::size_t>(found.features[i][0]);
+    matches.add(source.points[i], target.points[nearest],
+                static_cast<float>(feature_confidence(std::max(source.radii[i], target.radii[nearest]))));
   }
   return matches;
 }
@@ -219,13 +104,14 @@ double feature_confidence(double radius) {
 }
 
 PointMatches match_features(const FramePair& pair, double ratio, double least_scale) {
-  const double scale = scale_for(pair.source, least_scale);
+  constexpr double fewest_pixels = 6000;
+  const double scale = scale_of_features(pair.source, least_scale, fewest_pixels);
   // Both at once: most of the detector runs on one processor only.
   auto found = std::async(std::launch::async, [&] {
     return find_features(pair.target, pair.camera, scale, pair.name + ", target");
   });
-  Features source = find_features(pair.source, pair.camera, scale, pair.name + ", source");
-  Features target = found.get();
+  ColorFeatures source = find_features(pair.source, pair.camera, scale, pair.name + ", source");
+  ColorFeatures target = found.get();
   return match(source, target, ratio);
 }
 

@@ -48,6 +48,7 @@ struct FrameRecord {
   FrameState state = FrameState::waiting;
   std::string reason;  ///< why it is lost or waiting; else empty
   Eigen::Isometry3d camera_from_model = Eigen::Isometry3d::Identity();  ///< mm; the last one found
+  bool relocalized = false;   ///< tracked from where a relocalizer was asked, not from the pose before
   PoseEstimate pose;          ///< of a frame that was tracked or lost
   TrackingError rigid_error;  ///< of a frame that was tracked: at that pose
   TrackingError error;        ///< the same after the model was registered non-rigidly, if it was

@@ -113,7 +113,7 @@ Eigen::Isometry3d common_motion(const EmbeddedGraph& graph, const Array<float>& 
 Eigen::Isometry3d ModelRegistration::run(DeformingModel& model, const SurfaceMap& view,
                                          const SurfaceMap& seen, const Eigen::Isometry3d& camera_from_model,
                                          TrackingErrorMeter& meter, FrameRecord& record) const {
-  record.rigid_error = record.error = meter.measure(view.map, seen);
+  record.rigid_error = record.error = meter.measure(view, seen);
   RegistrationRecord& registration = record.registration.emplace();
   const auto reject = [&](const std::string& reason) {
     registration.is_rejected = true;
@@ -129,7 +129,7 @@ Eigen::Isometry3d ModelRegistration::run(DeformingModel& model, const SurfaceMap
     Deformation deformation = NonRigid(method_, device_).deform(input);
     SurfaceMap moved(view.camera, view.window, no_points(device_, view.window.size()));
     place_points(device_, deformation.points, Array<int>(source.offsets), moved.map);
-    const TrackingError after = meter.measure(moved.map, seen);
+    const TrackingError after = meter.measure(moved, seen);
     registration.iterations = deformation.iterations;
     registration.nodes = static_cast<int>(deformation.graph->nodes.size());
     registration.constraints = deformation.constraints;

@@ -8,6 +8,7 @@
 #include "framework/geometry/frame.h"
 #include "framework/geometry/rig.h"
 #include "framework/imaging/preprocessor.h"
+#include "framework/tracking/followed_window.h"
 #include "framework/tracking/frame_record.h"
 #include "framework/tracking/model_registration.h"
 #include "framework/tracking/tracking_method.h"
@@ -21,6 +22,10 @@ namespace pliant {
 /// The model is begun with the first frame that shows the object; the region where the segmentation finds it
 /// stays as it is from then on. Where the pose of a frame is not found, the next one is looked for from the
 /// last one that was. A frame without any depth in the region is lost.
+///
+/// With a relocalizer the region, unless it has a mask, moves with the model. Where ICP fails, or the share
+/// of the model's points with a match falls by a quarter from one frame to the next, the object is segmented
+/// anew and ICP tried from the relocalizer's poses as well; what matches less than that is lost.
 class Tracker {
  public:
   /// Method and device must outlive this. Throws DataError as `check` of the rig does.
@@ -43,9 +48,14 @@ class Tracker {
 
  private:
   bool find_object(const Frame& frame, FrameRecord& record);
+  std::optional<Region> find_region(const Frame& frame, FrameRecord& record) const;
   void preprocess(const Frame& frame);
   void begin_model(FrameRecord& record);
-  void follow(FrameRecord& record);
+  void follow(const Frame& frame, FrameRecord& record);
+  bool is_sure(const PoseEstimate& pose) const;
+  void relocalise(const Frame& frame, FrameRecord& record);
+  PoseEstimate estimate_from(const Eigen::Isometry3d& camera_from_model);
+  void remember(const Frame& frame, FrameRecord& record);
   void register_model(FrameRecord& record);
   void fuse_into(DeformingModel& model);
   void choose_followed();
@@ -53,13 +63,17 @@ class Tracker {
   const TrackingMethod& method_;
   Rig rig_;
   Device& device_;
-  Region region_;                             // once it is known
+  Region region_;                             // once it is known, of the next frame
   std::optional<Preprocessor> preprocessor_;  // likewise
   std::unique_ptr<PoseEstimator> pose_;
-  std::optional<TrackingErrorMeter> meter_;  // of what that sees
+  std::unique_ptr<Relocalizer> relocalizer_;  // null without
+  std::optional<FollowedWindow> window_;      // of a region without a mask, with a relocalizer
+  double usual_share_ = 0.8;                  // of the model's points that are matched: in the last frame
+  TrackingErrorMeter meter_;
   std::unique_ptr<DeformingModel> model_;
   const SurfaceMap* model_view_ = nullptr;
-  PointSet moved_view_;  // to the pose of the frame
+  SurfaceMap moved_view_;     // to the pose of the frame
+  PixelWindow first_window_;  // of the frame that began the model
   std::vector<Eigen::Vector2i> followed_pixels_;
   Eigen::Isometry3d camera_from_model_ = Eigen::Isometry3d::Identity();
   int count_ = 0;  // of frames

@@ -1,11 +1,13 @@
-// How far a model lies from a frame, with the frame's noise averaged out. `points` and `normals`: of the model, x y z
-// per pixel of the view's window, row by row, (0, 0, 0) where there is none. NAN where nothing is known.
+// How far a model lies from a frame, with the frame's noise averaged out. `points` and `normals`: of the
+// model, x y z per pixel of the view's window, row by row, (0, 0, 0) where there is none. NAN where nothing
+// is known.
 #define UNKNOWN NAN
 
 // Depth of the frame at the pixel that a point projects to, less its own; unknown where that is more than
 // `max_distance`, or the point looks away from the camera.
-kernel void difference(int count, global const float* points, global const float* normals, float4 camera, int4 window,
-                       global const float* seen, float max_distance, float least_facing, global float* differences) {
+kernel void difference(int count, global const float* points, global const float* normals, float4 camera,
+                       int4 window, global const float* seen, float max_distance, float least_facing,
+                       global float* differences) {
   const int i = get_global_id(0);
   if (i >= count) return;
   float told = UNKNOWN;
@@ -42,6 +44,7 @@ kernel void average(int2 size, int radius, global const float* differences, glob
   if (i >= size.x * size.y) return;
   const int row = i / size.x;
   float2 sum = 0.0f;
-  for (int r = max(row - radius, 0); r <= min(row + radius, size.y - 1); ++r) sum += sums[i + (r - row) * size.x];
+  for (int r = max(row - radius, 0); r <= min(row + radius, size.y - 1); ++r)
+    sum += sums[i + (r - row) * size.x];
   distances[i] = isnan(differences[i]) ? -1.0f : fabs(sum.x / sum.y);
 }

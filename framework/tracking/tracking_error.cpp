@@ -43,43 +43,44 @@ TrackingErrorOptions read_tracking_error(const Parameters& section) {
           static_cast<int>(section.integer("radius")), section.real("min_gain")};
 }
 
-TrackingErrorMeter::TrackingErrorMeter(Device& device, const TrackingErrorOptions& options,
-                                       std::size_t pixels)
-    : device_(device),
-      options_(options),
-      differences_(pixels),
-      sums_(device.allocate(pixels * sizeof(cl_float2))),
-      distances_(pixels),
-      sum_(device, pixels, options.max_distance) {}
+TrackingErrorMeter::TrackingErrorMeter(Device& device, const TrackingErrorOptions& options)
+    : device_(device), options_(options) {}
 
-TrackingError TrackingErrorMeter::measure(const PointSet& model, const SurfaceMap& seen) {
+TrackingError TrackingErrorMeter::measure(const SurfaceMap& model, const SurfaceMap& seen) {
+  const std::size_t pixels = model.window.size();
+  if (distances_.size() != pixels) {
+    differences_ = Array<float>(pixels);
+    sums_ = Array<float>(2 * pixels);
+    distances_ = Array<float>(pixels);
+    sum_.emplace(device_, pixels, options_.max_distance);
+  }
   auto difference = error_kernel(device_, "difference");
   auto sum_rows = error_kernel(device_, "sum_rows");
   auto average = error_kernel(device_, "average");
-  const std::size_t pixels = distances_.size();
   const PixelWindow& window = seen.window;
-  const cl_int2 size{{window.width, window.height}};
+  const cl_int2 size{{model.window.width, model.window.height}};
   const cl_int radius = options_.radius;
   device_.run("error", difference, pixels, work_group, static_cast<cl_int>(pixels),
-              model.points.device(device_), model.normals.device(device_), pinhole(seen.camera),
+              model.points().device(device_), model.normals().device(device_), pinhole(seen.camera),
               cl_int4{{window.left, window.top, window.width, window.height}}, seen.points().device(device_),
               static_cast<float>(options_.max_distance),
               static_cast<float>(std::cos(options_.max_view_angle)), differences_.write_device(device_));
-  device_.run("error", sum_rows, pixels, work_group, size, radius, differences_.device(device_), sums_);
-  device_.run("error", average, pixels, work_group, size, radius, differences_.device(device_), sums_,
-              distances_.write_device(device_));
-  sum_.add_up(distances_, model, seen);
-  const Residual residual = sum_.read();
+  device_.run("error", sum_rows, pixels, work_group, size, radius, differences_.device(device_),
+              sums_.write_device(device_));
+  device_.run("error", average, pixels, work_group, size, radius, differences_.device(device_),
+              sums_.device(device_), distances_.write_device(device_));
+  sum_->add_up(distances_, model.map, seen);
+  const Residual residual = sum_->read();
   return {residual.mean, residual.deviation, residual.matched};
 }
 
-std::vector<float> tracking_error_reference(const PointSet& model, const SurfaceMap& seen,
+std::vector<float> tracking_error_reference(const SurfaceMap& model, const SurfaceMap& seen,
                                             const TrackingErrorOptions& options) {
-  const PixelWindow& window = seen.window;
+  const PixelWindow& window = model.window;
   const auto difference_at = [&](int column, int row) {
     const auto at = static_cast<std::size_t>(row * window.width + column);
-    const Eigen::Map<const Eigen::Vector3f> p(model.points.host().data() + 3 * at);
-    const Eigen::Map<const Eigen::Vector3f> n(model.normals.host().data() + 3 * at);
+    const Eigen::Map<const Eigen::Vector3f> p(model.points().host().data() + 3 * at);
+    const Eigen::Map<const Eigen::Vector3f> n(model.normals().host().data() + 3 * at);
     const float unknown = std::numeric_limits<float>::quiet_NaN();
     const auto least_facing = static_cast<float>(std::cos(options.max_view_angle));
     if (!(p.z() > 0) || !(-p.dot(n) >= least_facing * p.norm())) return unknown;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "framework/core/parameters.h"
@@ -29,26 +30,25 @@ TrackingErrorOptions read_tracking_error(const Parameters& section);
 /// Measures how far a model lies from frames, on a device.
 class TrackingErrorMeter {
  public:
-  /// `pixels`: of each map of the model. The device must outlive this.
-  TrackingErrorMeter(Device& device, const TrackingErrorOptions& options, std::size_t pixels);
+  /// The device must outlive this.
+  TrackingErrorMeter(Device& device, const TrackingErrorOptions& options);
 
-  /// `model`: in the frame of the camera that saw the frame, one point a pixel of the window that both have.
-  /// Waits for the device.
-  TrackingError measure(const PointSet& model, const SurfaceMap& seen);
-  /// What was measured last, a pixel of the window: mm, -1 where nothing is known.
+  /// `model`: where it is in the frame of the camera that saw the frame. Waits for the device.
+  TrackingError measure(const SurfaceMap& model, const SurfaceMap& seen);
+  /// What was measured last, a pixel of the model's window: mm, -1 where nothing is known.
   const Array<float>& per_pixel() const { return distances_; }
 
  private:
   Device& device_;
   TrackingErrorOptions options_;
   Array<float> differences_;
-  Buffer sums_;
+  Array<float> sums_;
   Array<float> distances_;
-  ResidualSum sum_;
+  std::optional<ResidualSum> sum_;
 };
 
 /// Plain C++ reference of what TrackingErrorMeter measures a pixel.
-std::vector<float> tracking_error_reference(const PointSet& model, const SurfaceMap& seen,
+std::vector<float> tracking_error_reference(const SurfaceMap& model, const SurfaceMap& seen,
                                             const TrackingErrorOptions& options);
 
 }  // namespace pliant

@@ -30,6 +30,8 @@ std::vector<Parameter> tracking_rows() {
       component("segmentation", Segmentation::kind, "none").doc("What of the frames is tracked [3.1]"),
       component("pose", PoseEstimatorKind::kind, "icp_projective")
           .doc("How the model is found again in each frame that is tracked [3.3]"),
+      component("relocalizer", RelocalizerKind::kind, "none")
+          .doc("How it is found again where it moved further than that reaches [3.3]"),
       component("policy", Policy::kind)
           .optional()
           .doc("When the model is registered non-rigidly to such a frame [4.8]; without it the model is "
@@ -47,6 +49,7 @@ TrackingMethod make_tracking_method(const Parameters& experiment, const Registry
           registry.make<Segmentation>(experiment.section("segmentation")),
           registry.make<PoseEstimatorKind>(experiment.section("pose")),
           registry.make<ModelKind>(experiment.section("model")),
+          registry.make<RelocalizerKind>(experiment.section("relocalizer")),
           experiment.has("policy") ? registry.make<Policy>(experiment.section("policy")) : nullptr,
           make_nonrigid_method(experiment, registry),
           registry.make<ModelUpdate>(experiment.section("update")),

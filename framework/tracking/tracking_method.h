@@ -9,6 +9,7 @@
 #include "framework/model/deforming_model.h"
 #include "framework/model/reference_model.h"
 #include "framework/pose/pose_estimator.h"
+#include "framework/pose/relocalizer.h"
 #include "framework/registration/nonrigid_method.h"
 #include "framework/tracking/policy.h"
 #include "framework/tracking/tracking_error.h"
@@ -27,6 +28,7 @@ struct TrackingMethod {
   std::unique_ptr<Segmentation> segmentation;
   std::unique_ptr<PoseEstimatorKind> pose;
   std::unique_ptr<ModelKind> model;
+  std::unique_ptr<RelocalizerKind> relocalizer;
   std::unique_ptr<Policy>
       policy;                  ///< null: the model is rigid, and its distance to the frames is not measured
   NonRigidMethod deformation;  ///< how the model is registered to frames when the policy wants it

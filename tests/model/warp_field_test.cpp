@@ -104,7 +104,7 @@ void deform(WarpField& field, const FormOf& form_of) {
   graph.positions = start.nodes;
   const Array<float> affine =
       forms_of(start.nodes, [&](const Eigen::Vector3f& node) { return seen_form(form_of(in_model(node))); });
-  field.deform({graph, affine, start.rest, 4, kPose});
+  field.deform({graph, affine, start.rest, 4, kPose, kPose});
 }
 
 void bend(WarpField& field, const BendingWall& wall = {}) {
