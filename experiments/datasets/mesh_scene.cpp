@@ -58,6 +58,13 @@ std::vector<Eigen::Vector3d> MeshScene::vertices_at(double time) const {
   return vertices;
 }
 
+Eigen::Isometry3d MeshScene::followed_from_camera(double time) const {
+  const SceneKey state = state_at(time);
+  const Eigen::Translation3d middle(0, 0, distance);
+  return middle * state.motion.transform().inverse() * middle.inverse() *
+         state.camera.camera_from_scene().inverse();
+}
+
 Eigen::AlignedBox3d box_around(const Mesh& mesh, const FigurePose& base) {
   return box_around(mesh.deform(on_top(mesh.rest(), base)));
 }

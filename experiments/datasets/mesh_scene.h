@@ -60,6 +60,9 @@ struct MeshScene {
   SceneKey state_at(double time) const;
   /// The vertices at some time, mm in the depth camera's frame.
   std::vector<Eigen::Vector3d> vertices_at(double time) const;
+  /// From the depth camera's frame to one that goes with the mesh as its rigid motion moves it: the scene's,
+  /// where that is none.
+  Eigen::Isometry3d followed_from_camera(double time) const;
 
  private:
   MeshPose beneath_at(double time) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "experiments/datasets/mesh_size.h"
@@ -16,6 +17,31 @@ DepthImage depth_image(const Array<float>& depth, const Camera& camera) {
   DepthImage image(camera.width, camera.height);
   depth.copy_to(image.data());
   return image;
+}
+
+struct OrientedPoint {
+  Eigen::Vector3d position;
+  Eigen::Vector3d normal;  // of any length
+};
+
+/// What a pixel of a view shows, when the vertices are where `vertices` has them, x y z each; NaN where it
+/// shows nothing.
+OrientedPoint carried(const MeshView& from, const Eigen::Vector2i& pixel,
+                      const std::vector<Eigen::Vector3i>& triangles, const std::vector<float>& vertices) {
+  const auto at = static_cast<std::size_t>(pixel.y() * from.camera.width + pixel.x());
+  const int triangle = from.triangles.host()[at];
+  if (triangle < 0) {
+    const auto unknown = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    return {unknown, unknown};
+  }
+  const auto corner = [&](int i) -> Eigen::Vector3d {
+    const auto vertex = static_cast<std::size_t>(triangles[static_cast<std::size_t>(triangle)][i]);
+    return Eigen::Map<const Eigen::Vector3f>(&vertices[3 * vertex]).cast<double>();
+  };
+  const Eigen::Vector3d second = corner(1) - corner(0);
+  const Eigen::Vector3d third = corner(2) - corner(0);
+  const float* shares = &from.shares.host()[2 * at];
+  return {corner(0) + shares[0] * second + shares[1] * third, second.cross(third)};
 }
 
 }  // namespace
@@ -42,6 +68,11 @@ const MeshStream::Seen& MeshStream::latest(int number) const {
   return *latest_;
 }
 
+const MeshStream::Seen& MeshStream::first(int number) const {
+  if (!first_ || first_->number != number) first_ = see(number);
+  return *first_;
+}
+
 std::optional<Frame> MeshStream::next() {
   if (given_ == scene_->frames) return std::nullopt;
   ++given_;
@@ -50,7 +81,7 @@ std::optional<Frame> MeshStream::next() {
   frame.time = scene_->time_of(given_);
   frame.color = color_of(seen);
   frame.depth = depth_image(seen.view.depth, scene_->rig.depth);
-  check_is_seen(frame.depth, given_);
+  if (given_ == 1 || scene_->frames == 2) check_is_seen(frame.depth, given_);
   if (scene_->sensor.is_on())
     frame.depth = depth_image(sensor_.sense(device_, seen.view.depth, static_cast<std::uint32_t>(given_)),
                               scene_->rig.depth);
@@ -81,9 +112,8 @@ void MeshStream::check_is_seen(const DepthImage& exact, int number) const {
 
 std::optional<PairTruth> MeshStream::truth(int number) const {
   if (number < 2 || number > scene_->frames) return std::nullopt;
-  if (!first_) first_ = see(1);
   const Seen& target = latest(number);
-  TrueMotion motion = renderer_.move(first_->view, target.vertices, target.view).read(scene_->rig.depth);
+  TrueMotion motion = renderer_.move(first(1).view, target.vertices, target.view).read(scene_->rig.depth);
   return PairTruth{std::move(motion.scene_flow), std::move(motion.optical_flow), std::move(motion.visible)};
 }
 
@@ -92,7 +122,7 @@ DepthImage MeshStream::exact_depth(int number) const {
 }
 
 std::optional<Eigen::Isometry3d> MeshStream::camera_pose(int number) const {
-  return scene_->state_at(scene_->time_of(number)).camera.camera_from_scene().inverse();
+  return scene_->followed_from_camera(scene_->time_of(number));
 }
 
 std::optional<Mesh> MeshStream::surface(int number) const {
@@ -101,6 +131,21 @@ std::optional<Mesh> MeshStream::surface(int number) const {
     mesh.vertices.push_back(vertex.cast<float>());
   mesh.triangles = scene_->mesh.triangles;
   return mesh;
+}
+
+std::optional<TruePoints> MeshStream::points_of(int first, const std::vector<Eigen::Vector2i>& pixels,
+                                                int number) const {
+  const MeshView& from = this->first(first).view;
+  const std::vector<float>& vertices = latest(number).vertices.host();
+  const DepthImage depth = exact_depth(number);
+  const Camera& camera = scene_->rig.depth;
+  TruePoints points;
+  for (const Eigen::Vector2i& pixel : pixels) {
+    const OrientedPoint now = carried(from, pixel, scene_->mesh.triangles, vertices);
+    points.positions.push_back(now.position.cast<float>());
+    points.visible.push_back(now.position.z() > 0 && is_shown(now.position, now.normal, camera, depth));
+  }
+  return points;
 }
 
 }  // namespace pliant

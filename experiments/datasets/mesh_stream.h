@@ -14,7 +14,8 @@ namespace pliant {
 
 /// The frames of a scene, rendered on a device when they are asked for, with exact truth: scene flow, optical
 /// flow and visibility of what each pixel of the first frame shows, also under noise. There is no background.
-/// Without sensor terms the depth of every pixel is exact (not rounded to whole millimetres).
+/// Without sensor terms the depth of every pixel is exact (not rounded to whole millimetres). The mesh may
+/// leave the image after the first frame, if there are more than the two of a pair.
 class MeshStream : public DataStream {
  public:
   /// `seed`: of the sensor. `device` must outlive this.
@@ -22,12 +23,15 @@ class MeshStream : public DataStream {
 
   std::string name() const override { return scene_->name; }
   const Rig& rig() const override { return scene_->rig; }
-  /// Throws DataError, with the size of the mesh, when no pixel sees it or the camera is inside of it.
+  /// Throws DataError, with the size of the mesh, when no pixel of a frame sees it that has to, or the camera
+  /// is inside of it.
   std::optional<Frame> next() override;
   std::vector<std::string> warnings() const override { return scene_->warnings; }
   std::optional<PairTruth> truth(int number) const override;
   std::optional<Eigen::Isometry3d> camera_pose(int number) const override;
   std::optional<Mesh> surface(int number) const override;
+  std::optional<TruePoints> points_of(int first, const std::vector<Eigen::Vector2i>& pixels,
+                                      int number) const override;
 
   const MeshScene& scene() const { return *scene_; }
   /// The exact depth of a frame, which no sensor has seen.
@@ -43,6 +47,8 @@ class MeshStream : public DataStream {
   /// The same of the frame that was seen last, without seeing it again: its truth is asked for after it is
   /// given.
   const Seen& latest(int number) const;
+  /// The same of the frame whose points were followed last.
+  const Seen& first(int number) const;
   ColorImage color_of(const Seen& seen) const;
   void check_is_seen(const DepthImage& exact, int number) const;
 

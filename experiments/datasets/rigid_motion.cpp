@@ -4,7 +4,7 @@
 
 namespace pliant {
 
-Eigen::Affine3d RigidMotion::transform() const {
+Eigen::Isometry3d RigidMotion::transform() const {
   const auto radians = [](double degrees) { return degrees * std::numbers::pi / 180; };
   return Eigen::Translation3d(shift) * Eigen::AngleAxisd(radians(rotation_x), Eigen::Vector3d::UnitX()) *
          Eigen::AngleAxisd(radians(rotation_y), Eigen::Vector3d::UnitY());

@@ -12,7 +12,7 @@ struct RigidMotion {
   double rotation_y = 0;                            ///< degrees, about its y axis, before
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< mm
 
-  Eigen::Affine3d transform() const;  ///< about the origin
+  Eigen::Isometry3d transform() const;  ///< about the origin
 };
 
 /// The rows of a section that describes one, and what it says.

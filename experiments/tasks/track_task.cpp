@@ -79,7 +79,7 @@ class TrackTask : public Task {
       Mesh model;
       if (tracker.has_model()) {
         model = tracker.model().mesh();
-        end.model_error = truth.error_of(model);
+        end.model_error = truth.error_of(model, static_cast<int>(summary.frames.size()));
         write_model(model, making.folder, files);
       }
       RunArtefacts made = track_artefacts(run, summary, end);

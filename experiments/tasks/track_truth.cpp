@@ -18,22 +18,24 @@ PoseError pose_error(const Eigen::Isometry3d& found, const Eigen::Isometry3d& tr
 
 std::optional<PoseError> TrackTruth::error_of(const FrameRecord& record) {
   const auto world_from_camera = stream_.camera_pose(record.number);
-  if (record.state == FrameState::started) {
-    world_from_model_ = world_from_camera;
-    first_ = record.number;
-  }
+  if (record.state == FrameState::started) world_from_model_ = world_from_camera;
   if (!world_from_camera || !world_from_model_) return {};
   return pose_error(record.camera_from_model, world_from_camera->inverse() * *world_from_model_);
 }
 
-std::optional<ModelError> TrackTruth::error_of(const Mesh& model) const {
-  if (first_ == 0 || model.vertices.empty()) return {};
-  const auto surface = stream_.surface(first_);
+std::optional<ModelError> TrackTruth::error_of(const Mesh& model, int number) const {
+  const auto world_from_camera = stream_.camera_pose(number);
+  if (!world_from_camera || !world_from_model_ || model.vertices.empty()) return {};
+  const auto surface = stream_.surface(number);
   if (!surface) return {};
+  const Eigen::Isometry3f camera_from_model =
+      (world_from_camera->inverse() * *world_from_model_).cast<float>();
+  std::vector<Eigen::Vector3f> vertices = model.vertices;
+  for (Eigen::Vector3f& vertex : vertices) vertex = camera_from_model * vertex;
   // About as many samples whatever its size.
   const double spacing =
       std::max(5.0, static_cast<double>(box_around(surface->vertices).sizes().maxCoeff()) / 1000);
-  std::vector<float> distances = MeshDistance(*surface, spacing).distances(model.vertices);
+  std::vector<float> distances = MeshDistance(*surface, spacing).distances(vertices);
   const auto p95 =
       distances.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(distances.size()));
   std::nth_element(distances.begin(), p95, distances.end());

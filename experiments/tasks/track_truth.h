@@ -31,13 +31,14 @@ class TrackTruth {
 
   /// Of the frames of a tracker, each in turn; none where there is no model yet or the truth is not known.
   std::optional<PoseError> error_of(const FrameRecord& record);
-  /// Of a model of these frames, at its vertices; none where it has none or the true surface is not known.
-  std::optional<ModelError> error_of(const Mesh& model) const;
+  /// Of a model of these frames as it is in frame `number`, at its vertices; none where it has none or the
+  /// true surface is not known. The model's frame is that of the frame that began it, and goes with the
+  /// object as far as that truly moves rigidly.
+  std::optional<ModelError> error_of(const Mesh& model, int number) const;
 
  private:
   const DataStream& stream_;
   std::optional<Eigen::Isometry3d> world_from_model_;
-  int first_ = 0;  // frame of the model
 };
 
 }  // namespace pliant
