@@ -19,6 +19,13 @@ cl_int4 bricks_of(const TsdfGrid& grid) {
   return {{bricks.x(), bricks.y(), bricks.z(), 0}};
 }
 
+/// Whole blocks of lattice.cl.
+std::size_t listed_points(const Eigen::Vector3i& size) {
+  const Eigen::Vector3i block(4, 2, 2);
+  const Eigen::Vector3i blocks = ((size + block).array() - 1).matrix().cwiseQuotient(block);
+  return (blocks.cwiseProduct(block)).cast<std::size_t>().prod();
+}
+
 }  // namespace
 
 DisplacementLattice::DisplacementLattice(const TsdfGrid& grid)
@@ -29,19 +36,20 @@ DisplacementLattice::DisplacementLattice(const TsdfGrid& grid)
 
 Array<float> DisplacementLattice::points_at_rest(Device& device) const {
   auto place = lattice_kernel(device, "place_points");
-  Array<float> points(displacements_.size());
-  device.run("displace", place, points.size() / 3, 64, bricks_of(grid_), rows_of(grid_.model_from_voxel()),
-             points.write_device(device));
+  const std::size_t count = listed_points(size_);
+  Array<float> points(3 * count);
+  device.run("displace", place, count, 64, static_cast<cl_int>(count), bricks_of(grid_),
+             rows_of(grid_.model_from_voxel()), points.write_device(device));
   return points;
 }
 
 void DisplacementLattice::displace(Device& device, const Array<float>& rest, const Array<float>& moved) {
   auto displace = lattice_kernel(device, "displace");
   auto bound = lattice_kernel(device, "bound_displacements");
-  const std::size_t count = displacements_.size() / 3;
+  const std::size_t count = rest.size() / 3;
   const Buffer& displacements = displacements_.write_device(device);
-  device.run("displace", displace, count, 64, static_cast<cl_int>(count), static_cast<float>(grid_.voxel),
-             rest.device(device), moved.device(device), displacements);
+  device.run("displace", displace, count, 64, static_cast<cl_int>(count), bricks_of(grid_),
+             static_cast<float>(grid_.voxel), rest.device(device), moved.device(device), displacements);
   device.run("displace", bound, reaches_.size() / 8, 64, bricks_of(grid_), displacements,
              reaches_.write_device(device));
 }

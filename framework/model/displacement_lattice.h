@@ -21,9 +21,10 @@ class DisplacementLattice {
 
   const Eigen::Vector3i& size() const { return size_; }  ///< points along x, y, z
 
-  /// Where the points are at rest: x y z each, mm, in the model's frame, x fastest. Only enqueues.
+  /// Where the points are at rest: x y z each, mm, in the model's frame, in an order of their own: those that
+  /// follow one another lie together. A few lie beyond the last ones and count for nothing. Only enqueues.
   Array<float> points_at_rest(Device& device) const;
-  /// `moved`: where they are now, likewise. Only enqueues. What follows asks for it.
+  /// `moved`: where they are now, in the same order. Only enqueues. What follows asks for it.
   void displace(Device& device, const Array<float>& rest, const Array<float>& moved);
 
   /// Voxels: by how much the points are displaced along x, as many along y, as many along z.

@@ -56,25 +56,37 @@ Box widened(Box box, float8 reach, float16 m) {
   return box;
 }
 
-// Where the points lie at rest, x y z each, mm. `m`: from voxels to the model's frame.
-kernel void place_points(int4 bricks, float16 m, global float* points) {
+// The points are listed block by block, because those that lie together are quickly found the nodes of; some
+// of the last blocks lie beyond the lattice.
+#define BLOCK ((int3)(4, 2, 2))
+
+int3 listed_point(int i, int3 size) {
+  const int3 blocks = (size + BLOCK - 1) / BLOCK;
+  const int block = i / 16, row = block / blocks.x;
+  return (int3)(block - row * blocks.x, row % blocks.y, row / blocks.y) * BLOCK +
+         (int3)(i % 4, i / 4 % 2, i / 8 % 2);
+}
+
+// Where the listed points lie at rest, x y z each, mm. `m`: from voxels to the model's frame.
+kernel void place_points(int count, int4 bricks, float16 m, global float* points) {
   const int i = get_global_id(0);
-  const int3 size = lattice_size(bricks);
-  if (i >= size.x * size.y * size.z) return;
-  const int row = i / size.x;
-  const float3 p = convert_float3((int3)(i - row * size.x, row % size.y, row / size.y) * CELL);
+  if (i >= count) return;
+  const float3 p = convert_float3(listed_point(i, lattice_size(bricks)) * CELL);
   vstore3((float3)(dot(m.s012, p) + m.s3, dot(m.s456, p) + m.s7, dot(m.s89a, p) + m.sb), i, points);
 }
 
-// What the points have moved by. `rest`, `moved`: x y z each, mm.
-kernel void displace(int count, float voxel, global const float* rest, global const float* moved,
+// What the listed points have moved by. `rest`, `moved`: x y z each, mm.
+kernel void displace(int count, int4 bricks, float voxel, global const float* rest, global const float* moved,
                      global float* displacements) {
   const int i = get_global_id(0);
   if (i >= count) return;
+  const int3 size = lattice_size(bricks), point = listed_point(i, size);
+  if (any(point >= size)) return;
+  const int at = point.x + size.x * (point.y + size.y * point.z), points = size.x * size.y * size.z;
   const float3 by = (vload3(i, moved) - vload3(i, rest)) / voxel;
-  displacements[i] = by.x;
-  displacements[count + i] = by.y;
-  displacements[2 * count + i] = by.z;
+  displacements[at] = by.x;
+  displacements[at + points] = by.y;
+  displacements[at + 2 * points] = by.z;
 }
 
 kernel void bound_displacements(int4 bricks, global const float* displacements, global float* reaches) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "framework/core/error.h"
@@ -321,6 +322,35 @@ TEST(WarpField, AsksForNoMemoryAfterTheFirstFrames) {
   const auto before = device.counts().allocated_bytes;
   for (int i = 0; i < 10; ++i) frame();
   EXPECT_EQ(device.counts().allocated_bytes, before);
+}
+
+// The simulator runs this one.
+TEST(WarpField, MovesFewPixelsAndVoxels) {
+  const Camera camera{20, 20, 9.5, 7.5, 19, 15};
+  const PixelWindow window{3, 2, 13, 11};
+  const Ball wall{.radius = 0, .wall = 600};
+  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Device device;
+  auto tsdf = std::make_unique<Tsdf>(device, TsdfGrid{{32, 32, 32}, {-155, -155, 490}, 10, 40}, 64);
+  WarpField field(device, std::move(tsdf), 100);
+  const DepthMap map(wall.frame(camera, pose));
+  field.integrate(map, camera, pose);
+  field.view(camera, window, pose);
+  const DeformationStart start = field.start();
+  EmbeddedGraph graph;
+  graph.positions = start.nodes;
+  const Array<float> affine = forms_of(start.nodes, [](const Eigen::Vector3f&) {
+    Form form = Form::Zero();
+    form(2, 3) = -30;
+    return form;
+  });
+  field.deform({graph, affine, start.rest, 4, pose});
+  field.follow(flatten(Points{{0, 0, 570}}));
+  field.integrate(DepthMap(Ball{.radius = 0, .wall = 570}.frame(camera, pose)), camera, pose);
+  const Points points = points_of(field.view(camera, window, pose));
+  EXPECT_GT(points.size(), 15U);
+  for (const Eigen::Vector3f& point : points) EXPECT_NEAR(point.z(), 570, 0.5);
+  EXPECT_NEAR(field.followed().host()[2], 570, 0.01);
 }
 
 TEST(WarpField, LivesWithoutAnythingToSee) {
