@@ -29,6 +29,9 @@ ordered_json run_json(const ExperimentRun& run, const TrackSummary& summary, con
                        {"time_ms", summary.time_ms}};
   if (const auto rmse = summary.rmse())
     json["truth"] = {{"ate_translation", rmse->translation}, {"ate_rotation", rmse->rotation}};
+  if (summary.knows(&FrameFigures::point_error))
+    json["truth"].update({{"point_error", summary.mean(&FrameFigures::point_error)},
+                          {"point_error_moving", summary.mean(&FrameFigures::moving_error)}});
   if (const auto& error = end.model_error)
     json["truth"].update({{"model_mean", error->mean}, {"model_p95", error->p95}});
   return json;

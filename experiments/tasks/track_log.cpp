@@ -12,7 +12,7 @@ using nlohmann::ordered_json;
 constexpr const char* csv_header =
     "frame,time_s,state,x_mm,y_mm,z_mm,samples,inliers,mean_error_mm,conditioning,iterations,total_ms,"
     "translation_error_mm,rotation_error_deg,rigid_error_mean_mm,error_mean_mm,error_sd_mm,registered,"
-    "rejected\n";
+    "rejected,point_error_mm,point_error_moving_mm\n";
 
 /// The rows of [R | t], mm.
 ordered_json rows_of(const Eigen::Isometry3d& pose) {
@@ -21,7 +21,12 @@ ordered_json rows_of(const Eigen::Isometry3d& pose) {
   return rows;
 }
 
-ordered_json json_of(const FrameRecord& record, const std::optional<PoseError>& error) {
+ordered_json json_of(const PointErrors& errors) {
+  return {{"count", errors.count}, {"mean", errors.mean}, {"p95", errors.p95}, {"max", errors.max}};
+}
+
+ordered_json json_of(const FrameRecord& record, const std::optional<PoseError>& error,
+                     const std::optional<FollowedErrors>& points) {
   const PoseEstimate& pose = record.pose;
   ordered_json json = {{"frame", record.number},
                        {"time", record.time},
@@ -49,19 +54,28 @@ ordered_json json_of(const FrameRecord& record, const std::optional<PoseError>& 
                             {"constraints", registration->constraints},
                             {"folded_cells", registration->folded_cells}};
   if (error) json["error"] = {{"translation", error->translation}, {"rotation", error->rotation}};
+  if (points) {
+    json["points"] = {{"all", json_of(points->all)},
+                      {"visible", json_of(points->visible)},
+                      {"moving", json_of(points->moving)}};
+    json["point_error"] = points->visible.mean;
+    json["point_error_moving"] = points->moving.mean;
+  }
   return json;
 }
 
-std::string csv_of(const FrameRecord& record, const std::optional<PoseError>& error) {
+std::string csv_of(const FrameRecord& record, const std::optional<PoseError>& error,
+                   const std::optional<FollowedErrors>& points) {
   const Eigen::Vector3d place = record.camera_from_model.inverse().translation();
   const PoseEstimate& pose = record.pose;
   return fmt::format(
-      "{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.4f},{:.3g},{},{:.3f},{},{:.4f},{:.4f},{:.4f},{:d},{:d}\n",
+      "{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.4f},{:.3g},{},{:.3f},{},{:.4f},{:.4f},{:.4f},{:d},{:d},{}\n",
       record.number, record.time, to_string(record.state), place.x(), place.y(), place.z(), pose.samples,
       pose.inliers, pose.mean_error, pose.conditioning, pose.iterations, record.total_ms,
       error ? fmt::format("{:.4f},{:.5f}", error->translation, error->rotation) : ",",
       record.rigid_error.mean, record.error.mean, record.error.deviation, is_registered(record),
-      is_rejected(record));
+      is_rejected(record),
+      points ? fmt::format("{:.4f},{:.4f}", points->visible.mean, points->moving.mean) : ",");
 }
 
 std::string path_of(const std::filesystem::path& folder, std::size_t file) {
@@ -80,9 +94,10 @@ TrackLog::TrackLog(const std::filesystem::path& folder)
   csv_.append(csv_header);
 }
 
-void TrackLog::add(const FrameRecord& record, const std::optional<PoseError>& error) {
-  json_.append(json_of(record, error));
-  csv_.append(csv_of(record, error));
+void TrackLog::add(const FrameRecord& record, const std::optional<PoseError>& error,
+                   const std::optional<FollowedErrors>& points) {
+  json_.append(json_of(record, error, points));
+  csv_.append(csv_of(record, error, points));
   if (has_pose(record.state))
     trajectory_.append(trajectory_line({record.time, record.camera_from_model.inverse()}));
 }

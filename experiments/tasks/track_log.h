@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/tasks/json_file.h"
+#include "experiments/tasks/point_truth.h"
 #include "experiments/tasks/track_truth.h"
 #include "framework/tracking/frame_record.h"
 
@@ -22,8 +23,9 @@ class TrackLog {
   /// Throws DataError when a file cannot be written, as add() does.
   explicit TrackLog(const std::filesystem::path& folder);
 
-  /// `error`: of the pose, where the true one is known.
-  void add(const FrameRecord& record, const std::optional<PoseError>& error);
+  /// `error`: of the pose, where the true one is known; `points`: likewise of the points that are followed.
+  void add(const FrameRecord& record, const std::optional<PoseError>& error,
+           const std::optional<FollowedErrors>& points);
 
  private:
   JsonLines json_;

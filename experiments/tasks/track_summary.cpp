@@ -11,7 +11,8 @@ constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
 
-void TrackSummary::add(const FrameRecord& record, const std::optional<PoseError>& error) {
+void TrackSummary::add(const FrameRecord& record, const std::optional<PoseError>& error,
+                       const std::optional<FollowedErrors>& points) {
   const PoseEstimate& pose = record.pose;
   const double share = pose.samples > 0 ? static_cast<double>(pose.inliers) / pose.samples : 0;
   frames.push_back({record.state, static_cast<float>(pose.mean_error), static_cast<float>(share),
@@ -19,7 +20,9 @@ void TrackSummary::add(const FrameRecord& record, const std::optional<PoseError>
                     error ? static_cast<float>(error->translation) : unknown,
                     error ? static_cast<float>(error->rotation) : unknown,
                     static_cast<float>(record.rigid_error.mean), static_cast<float>(record.error.mean),
-                    static_cast<float>(record.error.deviation), is_registered(record), is_rejected(record)});
+                    static_cast<float>(record.error.deviation), is_registered(record), is_rejected(record),
+                    points ? static_cast<float>(points->visible.mean) : unknown,
+                    points && points->moving.count > 0 ? static_cast<float>(points->moving.mean) : unknown});
   if (record.state != FrameState::tracked || count(FrameState::tracked) < 2) return;
   for (const auto& [stage, time] : record.time_ms) time_ms[stage] += time;
 }
@@ -34,11 +37,20 @@ int TrackSummary::count(bool FrameFigures::*flag) const {
       std::count_if(frames.begin(), frames.end(), [&](const FrameFigures& frame) { return frame.*flag; }));
 }
 
+bool TrackSummary::knows(float FrameFigures::*figure) const {
+  return std::any_of(frames.begin(), frames.end(),
+                     [&](const FrameFigures& frame) { return !std::isnan(frame.*figure); });
+}
+
 double TrackSummary::mean(float FrameFigures::*figure) const {
   double sum = 0;
-  for (const FrameFigures& frame : frames)
-    if (frame.state == FrameState::tracked) sum += static_cast<double>(frame.*figure);
-  return sum / std::max(count(FrameState::tracked), 1);
+  int known = 0;
+  for (const FrameFigures& frame : frames) {
+    if (frame.state != FrameState::tracked || std::isnan(frame.*figure)) continue;
+    sum += static_cast<double>(frame.*figure);
+    ++known;
+  }
+  return sum / std::max(known, 1);
 }
 
 double TrackSummary::mean_ms() const {

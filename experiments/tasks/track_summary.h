@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/tasks/point_truth.h"
 #include "experiments/tasks/track_truth.h"
 #include "framework/tracking/frame_record.h"
 
@@ -23,15 +24,20 @@ struct TrackSummary {
     float deviation;          ///< mm, standard deviation of that
     bool is_registered;       ///< see FrameRecord
     bool is_rejected;         ///< likewise
+    float point_error;   ///< mm, mean over the visible followed points; NaN where their truth is not known
+    float moving_error;  ///< mm, likewise over those that the deformation moves
   };
   std::vector<FrameFigures> frames;
   StageTimes time_ms;  ///< added up over the frames that mean_ms() is of
 
-  void add(const FrameRecord& record, const std::optional<PoseError>& error);
+  void add(const FrameRecord& record, const std::optional<PoseError>& error,
+           const std::optional<FollowedErrors>& points);
 
   int count(FrameState state) const;
   int count(bool FrameFigures::*flag) const;
-  /// Mean of a figure over the frames that were tracked; 0 where none was.
+  /// Whether any frame has that figure.
+  bool knows(float FrameFigures::*figure) const;
+  /// Mean of a figure over the frames that were tracked and have it; 0 where none was.
   double mean(float FrameFigures::*figure) const;
   double mean_ms() const;  ///< over the frames that were tracked but the first, which builds kernels; 0: none
   /// Root mean squares over the frames whose pose was found and is known; none where there is no such.

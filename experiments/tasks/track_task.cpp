@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "experiments/tasks/point_truth.h"
 #include "experiments/tasks/task.h"
 #include "experiments/tasks/track_artefacts.h"
 #include "experiments/tasks/track_log.h"
@@ -34,6 +35,24 @@ struct Measuring {
   Measuring(const Measuring&) = delete;
   Measuring& operator=(const Measuring&) = delete;
   Device& device;
+};
+
+/// The errors of the points that a tracker follows, once it does.
+class FollowedTruth {
+ public:
+  explicit FollowedTruth(const DataStream& stream) : stream_(stream) {}
+
+  std::optional<FollowedErrors> error_of(const Tracker& tracker, const FrameRecord& record) {
+    if (record.state == FrameState::started) first_ = record.number;
+    if (!has_pose(record.state) || tracker.followed_pixels().empty()) return {};
+    if (!truth_) truth_.emplace(stream_, first_, tracker.followed_pixels());
+    return truth_->error_of(unflatten(tracker.model().followed()), record.camera_from_model, record.number);
+  }
+
+ private:
+  const DataStream& stream_;
+  int first_ = 0;
+  std::optional<PointTruth> truth_;
 };
 
 class TrackTask : public Task {
@@ -99,6 +118,7 @@ class TrackTask : public Task {
                             TrackPictures& pictures, TrackSummary& summary) {
     PrefetchedStream ahead(stream);
     CheckedStream frames(ahead);
+    FollowedTruth points(stream);
     std::optional<TrackLog> log;
     try {
       while (!making.is_ended()) {
@@ -107,9 +127,10 @@ class TrackTask : public Task {
         const FrameRecord record = tracker.track(*frame);
         if (!log) log.emplace(making.folder);
         const auto error = truth.error_of(record);
-        log->add(record, error);
+        const auto point_errors = points.error_of(tracker, record);
+        log->add(record, error, point_errors);
         making.keep();
-        summary.add(record, error);
+        summary.add(record, error, point_errors);
         tell(making.progress, record);
         if (!pictures.show(*frame, record, tracker)) break;
       }

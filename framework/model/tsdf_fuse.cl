@@ -120,7 +120,7 @@ Seen depth_at(Lanes u, Lanes v, Truth in_front, int4 window, int stride, float t
 // What WIDTH voxels hold, in parts of the truncation, once a map told of them, which counts as `shown`
 // frames. `p`: where they lie, in voxels.
 Lanes fuse_voxels(Vector p, float16 placing, float4 camera, int4 window, int stride, float truncation,
-                  float max_weight, global const float* depth, global short* distances,
+                  float shown, float max_weight, global const float* depth, global short* distances,
                   global uchar* weights) {
   const Lanes px = fma((Lanes)placing.s0, p.x,
                        fma((Lanes)placing.s1, p.y, fma((Lanes)placing.s2, p.z, (Lanes)placing.s3)));

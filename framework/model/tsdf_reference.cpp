@@ -191,15 +191,15 @@ std::optional<double> crossing(const Field& field, const Ray& ray, std::array<do
 }  // namespace
 
 void integrate_reference(const TsdfGrid& grid, int max_weight, const DepthMap& depth, const Camera& camera,
-                         const Eigen::Isometry3d& camera_from_model, TsdfVoxels& voxels) {
-  fuse_voxels(grid, max_weight, depth, camera, camera_from_model, voxels,
+                         const Eigen::Isometry3d& camera_from_model, TsdfVoxels& voxels, int weight) {
+  fuse_voxels(grid, max_weight, depth, camera, camera_from_model, voxels, weight,
               [](const Eigen::Vector3i& voxel) -> Eigen::Vector3f { return voxel.cast<float>(); });
 }
 
 void integrate_reference(const TsdfGrid& grid, int max_weight, const DepthMap& depth, const Camera& camera,
                          const Eigen::Isometry3d& camera_from_model, const DisplacementLattice& lattice,
                          TsdfVoxels& voxels) {
-  fuse_voxels(grid, max_weight, depth, camera, camera_from_model, voxels,
+  fuse_voxels(grid, max_weight, depth, camera, camera_from_model, voxels, 1,
               [&](const Eigen::Vector3i& voxel) { return lattice.displaced_reference(voxel); });
 }
 

@@ -152,7 +152,7 @@ bool Tracker::is_sure(const PoseEstimate& pose) const {
 void Tracker::relocalise(const Frame& frame, FrameRecord& record) {
   FrameRecord search;
   std::optional<PoseEstimate> best;
-  Eigen::Isometry3d best_start;
+  Eigen::Isometry3d best_start = camera_from_model_;
   if (auto region = find_region(frame, search)) {
     if (region->mask.empty()) region->window = window_->move_to(region->window);
     region_ = *std::move(region);
