@@ -11,7 +11,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* csv_header =
     "frame,time_s,state,x_mm,y_mm,z_mm,samples,inliers,mean_error_mm,conditioning,iterations,total_ms,"
-    "translation_error_mm,rotation_error_deg\n";
+    "translation_error_mm,rotation_error_deg,relocalized\n";
 
 /// The rows of [R | t], mm.
 ordered_json rows_of(const Eigen::Isometry3d& pose) {
@@ -26,6 +26,7 @@ ordered_json json_of(const FrameRecord& record, const std::optional<PoseError>& 
                        {"time", record.time},
                        {"state", to_string(record.state)},
                        {"reason", record.reason},
+                       {"relocalized", record.relocalized},
                        {"camera_from_model", rows_of(record.camera_from_model)},
                        {"samples", pose.samples},
                        {"inliers", pose.inliers},
@@ -41,10 +42,11 @@ ordered_json json_of(const FrameRecord& record, const std::optional<PoseError>& 
 std::string csv_of(const FrameRecord& record, const std::optional<PoseError>& error) {
   const Eigen::Vector3d place = record.camera_from_model.inverse().translation();
   const PoseEstimate& pose = record.pose;
-  return fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.4f},{:.3g},{},{:.3f},{}\n", record.number,
+  return fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.4f},{:.3g},{},{:.3f},{},{}\n", record.number,
                      record.time, to_string(record.state), place.x(), place.y(), place.z(), pose.samples,
                      pose.inliers, pose.mean_error, pose.conditioning, pose.iterations, record.total_ms,
-                     error ? fmt::format("{:.4f},{:.5f}", error->translation, error->rotation) : ",");
+                     error ? fmt::format("{:.4f},{:.5f}", error->translation, error->rotation) : ",",
+                     record.relocalized ? 1 : 0);
 }
 
 std::string path_of(const std::filesystem::path& folder, std::size_t file) {

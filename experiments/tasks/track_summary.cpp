@@ -18,6 +18,7 @@ void TrackSummary::add(const FrameRecord& record, const std::optional<PoseError>
                     static_cast<float>(record.total_ms),
                     error ? static_cast<float>(error->translation) : unknown,
                     error ? static_cast<float>(error->rotation) : unknown});
+  relocalized += record.relocalized ? 1 : 0;
   if (record.state != FrameState::tracked || count(FrameState::tracked) < 2) return;
   for (const auto& [stage, time] : record.time_ms) time_ms[stage] += time;
 }

@@ -20,7 +20,8 @@ struct TrackSummary {
     float rotation_error;     ///< degrees, likewise
   };
   std::vector<FrameFigures> frames;
-  StageTimes time_ms;  ///< added up over the frames that mean_ms() is of
+  int relocalized = 0;  ///< of them; see FrameRecord
+  StageTimes time_ms;   ///< added up over the frames that mean_ms() is of
 
   void add(const FrameRecord& record, const std::optional<PoseError>& error);
 
