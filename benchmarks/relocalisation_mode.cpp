@@ -74,6 +74,8 @@ std::string keys(int jumps) {
   return text.substr(0, text.size() - 2);
 }
 
+constexpr const char* without_color = "none";  // as a texture
+
 Parameters read_experiment(const std::string& relocalizer, const std::string& texture, int jumps,
                            const Registry& registry) {
   const std::string text = fmt::format(
@@ -81,7 +83,7 @@ Parameters read_experiment(const std::string& relocalizer, const std::string& te
       "grazing: 80}}, keys: {{{}}}}}\n"
       "acquisition: {{depth_cut: 1300}}\nsegmentation: {{type: bounding_box, margin: 8}}\n"
       "model: {{type: tsdf, volume: fitted}}\nrelocalizer: {}\n",
-      distance, texture, keys(jumps), relocalizer);
+      distance, texture == without_color ? "rich" : texture, keys(jumps), relocalizer);
   std::vector<Parameter> rows = tracking_rows();
   rows.push_back(component("data", FrameSource::kind));
   return load_experiment({ConfigText{text, "the head that leaps", {}}, {}, {}}, ParameterTable(rows),
@@ -136,7 +138,8 @@ Found measure(const std::string& relocalizer, const std::string& texture, int ju
   Tracker tracker(method, stream->rig(), device);
   CheckedStream frames(*stream);
   Found found;
-  while (const auto frame = frames.next()) {
+  while (auto frame = frames.next()) {
+    if (texture == without_color) frame->color = {};
     const FrameRecord record = tracker.track(*frame);
     // The first frame's camera is the model's frame.
     const Eigen::Isometry3d truth = stream->camera_pose(record.number)->inverse() * *stream->camera_pose(1);
@@ -166,7 +169,7 @@ int run_relocalisation_mode(const Options& options) {
   register_everything(registry);
   auto rows = ordered_json::array();
   for (const ComponentInfo* relocalizer : registry.components(RelocalizerKind::kind)) {
-    for (const std::string texture : {"rich", "face", "skin"}) {
+    for (const std::string texture : {"rich", "face", "skin", without_color}) {
       if ((relocalizer->name + " " + texture).find(options.only) == std::string::npos) continue;
       rows.push_back(row_of(relocalizer->name, texture,
                             measure(relocalizer->name, texture, options.quick ? 20 : 200, registry, device)));

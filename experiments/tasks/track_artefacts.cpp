@@ -17,6 +17,7 @@ ordered_json run_json(const ExperimentRun& run, const TrackSummary& summary, con
                        {"waiting", summary.count(FrameState::waiting)},
                        {"tracked", summary.count(FrameState::tracked)},
                        {"lost", summary.count(FrameState::lost)},
+                       {"relocalized", summary.relocalized},
                        {"mean_error", summary.mean(&FrameFigures::mean_error)},
                        {"rigid_error_mean", summary.mean(&FrameFigures::rigid_error)},
                        {"error_mean", summary.mean(&FrameFigures::error)},
@@ -81,6 +82,9 @@ std::vector<std::string> notes_of(const TrackSummary& summary, const TrackEnd& e
                                              summary.count(FrameState::lost))};
   if (const int waiting = summary.count(FrameState::waiting); waiting > 0)
     notes.push_back(fmt::format("{} frames were waited for one that shows the object", waiting));
+  if (summary.relocalized > 0)
+    notes.push_back(
+        fmt::format("{} of the tracked frames were found by relocalisation", summary.relocalized));
   if (end.is_ended) notes.emplace_back("ended early, as asked");
   if (!end.error.empty()) notes.push_back("the frames ended early: " + end.error);
   for (const auto& warning : end.warnings) notes.push_back("warning: " + warning);

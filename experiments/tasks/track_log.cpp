@@ -11,7 +11,8 @@ using nlohmann::ordered_json;
 
 constexpr const char* csv_header =
     "frame,time_s,state,x_mm,y_mm,z_mm,samples,inliers,mean_error_mm,conditioning,iterations,total_ms,"
-    "translation_error_mm,rotation_error_deg,rigid_error_mean_mm,error_mean_mm,error_sd_mm,registered,"
+    "translation_error_mm,rotation_error_deg,relocalized,rigid_error_mean_mm,error_mean_mm,error_sd_mm,"
+    "registered,"
     "rejected,point_error_mm,point_error_moving_mm\n";
 
 /// The rows of [R | t], mm.
@@ -32,6 +33,7 @@ ordered_json json_of(const FrameRecord& record, const std::optional<PoseError>& 
                        {"time", record.time},
                        {"state", to_string(record.state)},
                        {"reason", record.reason},
+                       {"relocalized", record.relocalized},
                        {"camera_from_model", rows_of(record.camera_from_model)},
                        {"samples", pose.samples},
                        {"inliers", pose.inliers},
@@ -69,10 +71,11 @@ std::string csv_of(const FrameRecord& record, const std::optional<PoseError>& er
   const Eigen::Vector3d place = record.camera_from_model.inverse().translation();
   const PoseEstimate& pose = record.pose;
   return fmt::format(
-      "{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.4f},{:.3g},{},{:.3f},{},{:.4f},{:.4f},{:.4f},{:d},{:d},{}\n",
+      "{},{},{},{:.3f},{:.3f},{:.3f},{},{},{:.4f},{:.3g},{},{:.3f},{},{:d},{:.4f},{:.4f},{:.4f},{:d},{:d},{}"
+      "\n",
       record.number, record.time, to_string(record.state), place.x(), place.y(), place.z(), pose.samples,
       pose.inliers, pose.mean_error, pose.conditioning, pose.iterations, record.total_ms,
-      error ? fmt::format("{:.4f},{:.5f}", error->translation, error->rotation) : ",",
+      error ? fmt::format("{:.4f},{:.5f}", error->translation, error->rotation) : ",", record.relocalized,
       record.rigid_error.mean, record.error.mean, record.error.deviation, is_registered(record),
       is_rejected(record),
       points ? fmt::format("{:.4f},{:.4f}", points->visible.mean, points->moving.mean) : ",");

@@ -23,6 +23,7 @@ void TrackSummary::add(const FrameRecord& record, const std::optional<PoseError>
                     static_cast<float>(record.error.deviation), is_registered(record), is_rejected(record),
                     points ? static_cast<float>(points->visible.mean) : unknown,
                     points && points->moving.count > 0 ? static_cast<float>(points->moving.mean) : unknown});
+  relocalized += record.relocalized ? 1 : 0;
   if (record.state != FrameState::tracked || count(FrameState::tracked) < 2) return;
   for (const auto& [stage, time] : record.time_ms) time_ms[stage] += time;
 }

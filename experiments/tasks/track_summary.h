@@ -28,7 +28,8 @@ struct TrackSummary {
     float moving_error;  ///< mm, likewise over those that the deformation moves
   };
   std::vector<FrameFigures> frames;
-  StageTimes time_ms;  ///< added up over the frames that mean_ms() is of
+  int relocalized = 0;  ///< of them; see FrameRecord
+  StageTimes time_ms;   ///< added up over the frames that mean_ms() is of
 
   void add(const FrameRecord& record, const std::optional<PoseError>& error,
            const std::optional<FollowedErrors>& points);

@@ -126,6 +126,26 @@ TEST(Preprocessor, RefusesARegionBeyondTheImage) {
                std::invalid_argument);
 }
 
+TEST(Preprocessor, SeesInAMovedRegionWhatOneMadeThereSees) {
+  Device device;
+  const Acquisition acquisition = usual();
+  const Frame frame = made_depth(kCamera);
+  const PixelWindow larger{5, 3, 120, 70};
+  Preprocessor moved(device, Rig{kCamera}, acquisition, kRegion);
+  for (const PixelWindow& region : {PixelWindow{40, 20, kRegion.width, kRegion.height}, larger}) {
+    moved.process(frame);
+    moved.move_to(region);
+    moved.process(frame);
+    Preprocessor made(device, Rig{kCamera}, acquisition, region);
+    made.process(frame);
+    EXPECT_EQ(moved.surface().window, region);
+    EXPECT_EQ(moved.surface().points().host(), made.surface().points().host());
+    EXPECT_EQ(moved.surface().normals().host(), made.surface().normals().host());
+    EXPECT_EQ(moved.depth().depth.host(), made.depth().depth.host());
+  }
+  EXPECT_THROW(moved.move_to(PixelWindow{100, 10, 66, 20}), std::invalid_argument);
+}
+
 TEST(CutDepth, TakesOutWhatIsFarther) {
   DepthImage depth(3, 1);
   depth(0, 0) = 1300;
