@@ -159,11 +159,12 @@ std::string x_label_of(const Parameters& section) {
 ParameterTable chart_table() {
   return {
       choice("kind", {"lines", "bars", "stacked_bars", "frames"}, "lines")
-          .doc("how values are drawn; `frames`: those of each frame that was tracked (frames.jsonl), frame by frame"),
+          .doc("how values are drawn; `frames`: those of each frame that was tracked (frames.jsonl), frame "
+               "by frame"),
       text("title").doc("with the number that the figure has in a paper"),
       text("text", "").doc("what it shows, in a sentence or two"),
-      text("over").optional().doc(
-          "the axis of the sweep whose values its points have; `run` for the entries of `runs`; frames have none"),
+      text("over").optional().doc("the axis of the sweep whose values its points have; `run` for the entries "
+                                  "of `runs`; frames have none"),
       text("x").optional().doc("a formula for where points are drawn; the values on the axis by default"),
       text("x_label", "").doc("with its unit; the axis by default"),
       text("y_label").doc("with its unit"),

@@ -14,8 +14,10 @@ namespace pliant {
 ParameterTable record_table() {
   return {
       boolean("video", false).doc("writes video.avi: pictures of the frames that are tracked"),
-      words("error_at").optional().doc(
-          "numbers of frames, the first is 1, that errors.png shows: the model and how far the frame is from it"),
+      words("error_at")
+          .optional()
+          .doc("numbers of frames, the first is 1, that errors.png shows: the model and how far the frame is "
+               "from it"),
       real("error_scale", 10).unit("mm").range(0.01, 1000).doc("what the colours of errors.png end at"),
       integer("until", 0).range(0, 1e9).doc("number of the frame that tracking ends with; 0: the last one"),
       integer("every", 1).range(1, 10000).doc("so many frames go by from one of its pictures to the next"),
@@ -37,8 +39,8 @@ std::set<int> frames_of(const Parameters& record) {
     frames.insert(number);
   }
   if (frames.size() > most_frames)
-    throw ConfigError(
-        fmt::format("{}: 'error_at' has {} frames; expected at most {}", record.place(), frames.size(), most_frames));
+    throw ConfigError(fmt::format("{}: 'error_at' has {} frames; expected at most {}", record.place(),
+                                  frames.size(), most_frames));
   return frames;
 }
 

@@ -16,8 +16,8 @@
 
 namespace pliant {
 
-/// What a section of record_table() asks for; null where it asks for none. Throws ConfigError for what is no number of
-/// a frame.
+/// What a section of record_table() asks for; null where it asks for none. Throws ConfigError for what is no
+/// number of a frame.
 std::shared_ptr<ErrorPictures> make_error_pictures(const Parameters& record);
 
 /// Lets everyone watch the frames of a run who is to: its observer, and what makes pictures of them. Who sees
@@ -43,7 +43,7 @@ class TrackPictures {
   std::shared_ptr<PictureStrip> strip_ = std::make_shared<PictureStrip>();
   std::shared_ptr<TrackView> view_ = std::make_shared<TrackView>();
   std::shared_ptr<ErrorPictures> errors_;  // where they are asked for
-  int last_frame_ = 0;  // of the stream's where it is 0
+  int last_frame_ = 0;                     // of the stream's where it is 0
   std::filesystem::path video_file_;
   std::optional<Augmentation> augmentation_;  // where someone sees it
   std::optional<TrackVideo> video_;
