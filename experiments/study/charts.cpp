@@ -55,7 +55,6 @@ class ChartMaker {
  public:
   ChartMaker(const Parameters& section, const std::vector<RunRow>& rows, const FramesOf& frames_of)
       : section_(section), rows_(rows), frames_of_(frames_of), where_(section.words("where")) {
-    check_keys(section);
     check_conditions(where_, rows, section.place());
     if (is_over_frames(section)) return;
     axis_ = section.text("over");
@@ -180,6 +179,7 @@ ParameterTable chart_table() {
 
 Chart make_chart(const std::string& name, const Parameters& section, const std::vector<RunRow>& rows,
                  const FramesOf& frames_of, std::vector<std::string>& notes) {
+  check_keys(section);
   Chart chart;
   chart.name = name;
   chart.title = section.text("title");
