@@ -135,13 +135,13 @@ class Drawing {
     std::string svg;
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
       const auto& [at, base] = places_in_legend_[i];
-      svg +=
-          is_over_numbers(chart_)
-              ? line("line", at, base - 4, at + 18, base - 4, paint(i), color(i)) + legend_mark(at + 9, base - 4, i)
-              : fmt::format(
-                    "<rect class=\"bar s{}\" fill=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" "
-                    "height=\"12\" rx=\"2\"/>",
-                    color(i), paint(i), at + 2, base - 10);
+      svg += is_over_numbers(chart_)
+                 ? line("line", at, base - 4, at + 18, base - 4, paint(i), color(i)) +
+                       legend_mark(at + 9, base - 4, i)
+                 : fmt::format(
+                       "<rect class=\"bar s{}\" fill=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" "
+                       "height=\"12\" rx=\"2\"/>",
+                       color(i), paint(i), at + 2, base - 10);
       svg += text(at + 24, base, "start", chart_.series[i].name, "label");
     }
     return svg;
@@ -236,13 +236,13 @@ class Drawing {
     }
     if (path.empty()) return "";
     return fmt::format(
-        "<path class=\"line s{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n{}", color(index),
-        path, paint(index), marks);
+        "<path class=\"line s{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n{}",
+        color(index), path, paint(index), marks);
   }
 
   std::string marked(const Chart::Series& series, const Chart::Point& point, std::size_t index) const {
-    return whisker(x(point.x), point, index) +
-           titled(mark(x(point.x), y(point.value), index, color(index)), series.name, place_text(point), point);
+    return whisker(x(point.x), point, index) + titled(mark(x(point.x), y(point.value), index, color(index)),
+                                                      series.name, place_text(point), point);
   }
 
   /// Dashed across the plot, each with its name above its end.

@@ -76,7 +76,7 @@ std::string cell(const Chart& chart, const Chart::Series& series, const Chart::P
     if (is_over_numbers(chart) ? point.x == place.x : point.label == place.label)
       return !std::isfinite(point.value) ? ""
              : point.spread > 0          ? fmt::format("{:.4g} ± {:.2g}", point.value, point.spread)
-                              : fmt::format("{:.4g}", point.value);
+                                         : fmt::format("{:.4g}", point.value);
   return "";
 }
 
@@ -167,7 +167,8 @@ ordered_json chart_json(const Chart& chart) {
   ordered_json series = ordered_json::array();
   for (std::size_t i = 0; i < chart.series.size(); ++i) series.push_back(series_json(chart, i));
   ordered_json limits = ordered_json::array();
-  for (const auto& limit : chart.limits) limits.push_back({{"text", limit_text(limit)}, {"value", limit.value}});
+  for (const auto& limit : chart.limits)
+    limits.push_back({{"text", limit_text(limit)}, {"value", limit.value}});
   return {{"kind", name_of(chart.kind)},
           {"x", axis_json(x_axis_of(chart), chart.x_label)},
           {"y", axis_json(y_axis_of(chart), chart.y_label)},

@@ -28,7 +28,7 @@ struct Chart {
   };
   struct Series {
     std::string name;
-    std::vector<Point> points;  ///< in the order of the axis
+    std::vector<Point> points;              ///< in the order of the axis
     std::optional<std::size_t> color = {};  ///< of chart_colors(); the series' own place there by default
   };
   /// A value that all others are to be held against, drawn dashed across the plot.
@@ -49,8 +49,8 @@ struct Chart {
   std::vector<Limit> limits;
 };
 
-/// The names of the colours of series, in the order in which they are given out; `red` is given to none that does
-/// not ask for it.
+/// The names of the colours of series, in the order in which they are given out; `red` is given to none that
+/// does not ask for it.
 const std::vector<std::string>& chart_colors();
 
 /// What was claimed of an experiment, and what its numbers say.

@@ -51,7 +51,8 @@ std::string pictures_html(const Study& study) {
     std::string body = figure.text.empty() ? "" : "<p>" + html_escape(figure.text) + "</p>\n";
     body += "<div class=\"pictures\">\n";
     for (const auto& shown : figure.pictures) body += picture_html(shown);
-    html += html_section(html_escape(figure.title), body + "</div>\n", html_id(study.name + "-" + figure.name));
+    html +=
+        html_section(html_escape(figure.title), body + "</div>\n", html_id(study.name + "-" + figure.name));
   }
   return html;
 }
@@ -68,8 +69,8 @@ std::string study_html(const Study& study) {
   if (!study.lead.empty()) html += "<p class=\"lead\">" + html_escape(study.lead) + "</p>\n";
   html += findings_html(study) + charts_html(study);
   for (const auto& table : study.tables) html += to_html(table);
-  return html + pictures_html(study) + views_html(study) + html_notes(study.notes) + experiment_html(study.experiment) +
-         environment_html(study.environment) + "</article>\n";
+  return html + pictures_html(study) + views_html(study) + html_notes(study.notes) +
+         experiment_html(study.experiment) + environment_html(study.environment) + "</article>\n";
 }
 
 }  // namespace

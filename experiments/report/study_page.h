@@ -8,8 +8,9 @@
 
 namespace pliant {
 
-/// Several studies on one page: what all of them found, then each with its charts, tables, findings, pictures,
-/// views, notes, experiment and environment. Throws DataError when the file of a picture or view cannot be read.
+/// Several studies on one page: what all of them found, then each with its charts, tables, findings,
+/// pictures, views, notes, experiment and environment. Throws DataError when the file of a picture or view
+/// cannot be read.
 Page study_page(const std::string& title, const std::string& lead, const std::vector<Study>& studies);
 
 /// The same as an HTML file that needs no other.

@@ -72,12 +72,13 @@ void write_charts(const Study& study, const fs::path& folder) {
 Study study_of(const ExperimentPlan& plan, const ExperimentResult& result, const DeviceInfo& device,
                const fs::path& folder) {
   const auto folder_of = [&](const std::string& run) { return plan.has_variants() ? folder / run : folder; };
-  Study study = make_study(study_section(plan), study_rows(plan, result.runs),
-                           [&, known = std::map<std::string, std::vector<Numbers>>()](const RunRow& row) mutable {
-                             const auto [found, is_new] = known.try_emplace(row.name);
-                             if (is_new && !row.numbers.empty()) found->second = read_run_frames(folder_of(row.name));
-                             return found->second;
-                           });
+  Study study =
+      make_study(study_section(plan), study_rows(plan, result.runs),
+                 [&, known = std::map<std::string, std::vector<Numbers>>()](const RunRow& row) mutable {
+                   const auto [found, is_new] = known.try_emplace(row.name);
+                   if (is_new && !row.numbers.empty()) found->second = read_run_frames(folder_of(row.name));
+                   return found->second;
+                 });
   study.name = plan.name;
   if (study.title.empty()) study.title = plan.name;
   for (ShownView& view : study.views) view.file = folder / view.file;

@@ -55,7 +55,6 @@ class ChartMaker {
  public:
   ChartMaker(const Parameters& section, const std::vector<RunRow>& rows, const FramesOf& frames_of)
       : section_(section), rows_(rows), frames_of_(frames_of), where_(section.words("where")) {
-    check_keys(section);
     check_conditions(where_, rows, section.place());
     if (is_over_frames(section)) return;
     axis_ = section.text("over");
@@ -159,11 +158,12 @@ std::string x_label_of(const Parameters& section) {
 ParameterTable chart_table() {
   return {
       choice("kind", {"lines", "bars", "stacked_bars", "frames"}, "lines")
-          .doc("how values are drawn; `frames`: those of each frame that was tracked (frames.jsonl), frame by frame"),
+          .doc("how values are drawn; `frames`: those of each frame that was tracked (frames.jsonl), frame "
+               "by frame"),
       text("title").doc("with the number that the figure has in a paper"),
       text("text", "").doc("what it shows, in a sentence or two"),
-      text("over").optional().doc(
-          "the axis of the sweep whose values its points have; `run` for the entries of `runs`; frames have none"),
+      text("over").optional().doc("the axis of the sweep whose values its points have; `run` for the entries "
+                                  "of `runs`; frames have none"),
       text("x").optional().doc("a formula for where points are drawn; the values on the axis by default"),
       text("x_label", "").doc("with its unit; the axis by default"),
       text("y_label").doc("with its unit"),
@@ -179,6 +179,7 @@ ParameterTable chart_table() {
 
 Chart make_chart(const std::string& name, const Parameters& section, const std::vector<RunRow>& rows,
                  const FramesOf& frames_of, std::vector<std::string>& notes) {
+  check_keys(section);
   Chart chart;
   chart.name = name;
   chart.title = section.text("title");

@@ -15,9 +15,11 @@ std::vector<Parameter> Measure::rows() {
       text("value").doc("a formula over the numbers of a run in result.json, as in 1000 / time_ms.total"),
       words("where").optional().doc(
           "only of the runs that have AXIS=VALUE, as in [method=ED]; Ad* takes what begins so"),
-      reals("frames", 2).optional().doc(
-          "the first and the last: the formula is over the numbers of each frame between them that was tracked "
-          "(frames.jsonl), and a run's value is their mean"),
+      reals("frames", 2)
+          .optional()
+          .doc("the first and the last: the formula is over the numbers of each frame between them that was "
+               "tracked "
+               "(frames.jsonl), and a run's value is their mean"),
   };
 }
 

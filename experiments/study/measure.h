@@ -21,16 +21,16 @@ class Measure {
   /// `rows` and `frames_of` must outlive this.
   Measure(const Parameters& section, const std::vector<RunRow>& rows, const FramesOf& frames_of);
 
-  /// Of those rows that meet these conditions, too. Where the section names frames, a row's number is its mean over
-  /// them.
+  /// Of those rows that meet these conditions, too. Where the section names frames, a row's number is its
+  /// mean over them.
   Sample sample(const std::vector<std::string>& conditions) const;
   /// The rows that it is of and that meet these conditions, too.
   std::vector<RunRow> rows_that(const std::vector<std::string>& conditions) const;
   const Expression& expression() const { return expression_; }
   /// Each frame of a row that the section names, or all of them.
   std::vector<Numbers> frames(const RunRow& row) const;
-  /// Which of its names no run, or frame, has, with the nearest that there is; empty where each is there, or no run has
-  /// any number.
+  /// Which of its names no run, or frame, has, with the nearest that there is; empty where each is there, or
+  /// no run has any number.
   std::string missing() const;
 
  private:
@@ -44,8 +44,8 @@ class Measure {
   std::vector<std::string> where_;
 };
 
-/// Says which of the names of a formula is not known, with the nearest that is; `whose`: as in "run". Empty where
-/// all are, or nothing is.
+/// Says which of the names of a formula is not known, with the nearest that is; `whose`: as in "run". Empty
+/// where all are, or nothing is.
 std::string unknown_name(const Expression& expression, const std::set<std::string>& known,
                          const std::string& whose);
 

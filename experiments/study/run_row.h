@@ -31,8 +31,8 @@ RunRow make_run_row(const std::string& name, const nlohmann::ordered_json& json)
 /// What is told of a frame as numbers under dotted names; true is 1 and false 0.
 Numbers numbers_of_frame(const nlohmann::ordered_json& json);
 
-/// Gives what a run tells of each of its frames, in their order; `frame`, the number of each, is always there.
-/// Nothing where it has no frames, or was not made.
+/// Gives what a run tells of each of its frames, in their order; `frame`, the number of each, is always
+/// there. Nothing where it has no frames, or was not made.
 using FramesOf = std::function<std::vector<Numbers>(const RunRow&)>;
 
 /// A choice of rows: those that have certain values on certain axes.

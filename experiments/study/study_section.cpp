@@ -28,8 +28,9 @@ std::vector<ShownView> views_of(const Parameters& section, const std::vector<Run
 std::string caption_of(const RunRow& row, const std::vector<RunRow>& others) {
   std::string caption;
   for (const SweptValue& value : row.axes) {
-    const bool differs = std::any_of(others.begin(), others.end(),
-                                     [&](const RunRow& other) { return other.on(value.name) != value.value; });
+    const bool differs = std::any_of(others.begin(), others.end(), [&](const RunRow& other) {
+      return other.on(value.name) != value.value;
+    });
     if (differs) caption += (caption.empty() ? "" : ", ") + value.value;
   }
   return caption.empty() ? row.name : caption;
@@ -88,7 +89,8 @@ Study make_study(const Parameters& section, const std::vector<RunRow>& rows, con
   for (const auto& [name, table] : section.sections("tables"))
     study.tables.push_back(make_figures_table(name, table, rows, frames_of, study.notes));
   for (const auto& [name, claim] : section.sections("claims")) {
-    for (Finding& finding : make_findings(claim, rows, frames_of)) study.findings.push_back(std::move(finding));
+    for (Finding& finding : make_findings(claim, rows, frames_of))
+      study.findings.push_back(std::move(finding));
   }
   for (const auto& [name, figure] : section.sections("pictures"))
     study.pictures.push_back(figure_of(name, figure, rows));

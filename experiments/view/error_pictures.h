@@ -10,8 +10,8 @@
 
 namespace pliant {
 
-/// Chosen frames of a stream side by side, as PictureStrip shows some, on a scale that does not depend on the stream:
-/// pictures of several runs can be compared.
+/// Chosen frames of a stream side by side, as PictureStrip shows some, on a scale that does not depend on the
+/// stream: pictures of several runs can be compared.
 class ErrorPictures : public TrackObserver {
  public:
   /// `frames`: by their numbers, the first is 1; `highest`: mm, what the colours of errors end at.

@@ -57,17 +57,17 @@ Moment moment_of(const TrackedFrame& tracked) {
   return {caption_of(tracked.record), model, model_distances(*tracked.seen, *tracked.model)};
 }
 
-std::vector<std::uint8_t> draw_moments(const std::vector<Moment>& moments, const ColorScale& scale, int a_row) {
+std::vector<std::uint8_t> draw_moments(const std::vector<Moment>& moments, const ColorScale& scale,
+                                       int a_row) {
   const int count = static_cast<int>(moments.size());
   const cv::Size cell(2 * panel_width + gap + margin, moments[0].model.rows + header + margin);
   const int rows = (count + a_row - 1) / a_row;
-  cv::Mat canvas(rows * cell.height + header + 2 * margin,
-                 std::min(count, a_row) * cell.width + margin, CV_8UC3, paper);
+  cv::Mat canvas(rows * cell.height + header + 2 * margin, std::min(count, a_row) * cell.width + margin,
+                 CV_8UC3, paper);
   draw_scale(canvas, {0, margin}, scale);
   for (int i = 0; i < count; ++i) {
     const cv::Mat pair = draw(moments[static_cast<std::size_t>(i)], scale);
-    const cv::Point corner(margin + i % a_row * cell.width,
-                           margin + header + i / a_row * cell.height);
+    const cv::Point corner(margin + i % a_row * cell.width, margin + header + i / a_row * cell.height);
     pair.copyTo(canvas(cv::Rect(corner, pair.size())));
   }
   cv::cvtColor(canvas, canvas, cv::COLOR_RGB2BGR);

@@ -20,8 +20,9 @@ struct Moment {
 /// Of a frame with a model.
 Moment moment_of(const TrackedFrame& tracked);
 
-/// Moments of one stream side by side, at least one, as a PNG: the colours of the scale, and of each moment its
-/// caption, the model and the distances. `a_row`: how many stand beside each other at most.
-std::vector<std::uint8_t> draw_moments(const std::vector<Moment>& moments, const ColorScale& scale, int a_row);
+/// Moments of one stream side by side, at least one, as a PNG: the colours of the scale, and of each moment
+/// its caption, the model and the distances. `a_row`: how many stand beside each other at most.
+std::vector<std::uint8_t> draw_moments(const std::vector<Moment>& moments, const ColorScale& scale,
+                                       int a_row);
 
 }  // namespace pliant

@@ -30,7 +30,8 @@ FrameRecord tracked(int number) {
 
 class TrackLogTest : public TestFiles {
  protected:
-  /// Logs frames in a process of its own until that is killed; gives how many of them it said it had finished.
+  /// Logs frames in a process of its own until that is killed; gives how many of them it said it had
+  /// finished.
   int log_until_killed(std::chrono::microseconds after) const {
     int ends[2];
     if (::pipe(ends) != 0) return -1;
@@ -93,7 +94,8 @@ TEST_F(TrackLogTest, IsReadAsNumbersOfFramesThatWereTracked) {
   EXPECT_EQ(frames[1].at("time_ms.icp"), 1.25);
   EXPECT_EQ(frames[1].at("error.translation"), 0.5);
   write("frames.jsonl", "{\"number\": 3}\n");
-  EXPECT_THAT(data_error_of([&] { read_run_frames(file("")); }), HasSubstr("frames.jsonl: is no log of frames"));
+  EXPECT_THAT(data_error_of([&] { read_run_frames(file("")); }),
+              HasSubstr("frames.jsonl: is no log of frames"));
 }
 
 }  // namespace

@@ -126,19 +126,20 @@ TEST_F(TrackTest, LeavesStripViewAndFilm) {
 }
 
 TEST_F(TrackTest, AStudyShowsFramesPicturesAndViewsOfRuns) {
-  const std::string text = tracked_head +
-                           "reports: {pictures: {}, view: {}}\n"
-                           "record: {error_at: [3, 6], error_scale: 5}\n"
-                           "sweep: {seed: [1, 2]}\n"
-                           "study:\n"
-                           "  charts:\n"
-                           "    error:\n"
-                           "      {title: Figure 6.4, kind: frames, y_label: mm, limits: {threshold: {value: 2}},\n"
-                           "       series: {rigid: {value: mean_error, where: [seed=1], color: red}}}\n"
-                           "  tables: {t: {title: T, rows: [seed], columns: {error: {value: mean_error}, share: {value: "
-                           "tracked / frames}}}}\n"
-                           "  pictures: {errors: {title: Figure 6.5}}\n"
-                           "  views: {model: {where: [seed=2]}}\n";
+  const std::string text =
+      tracked_head +
+      "reports: {pictures: {}, view: {}}\n"
+      "record: {error_at: [3, 6], error_scale: 5}\n"
+      "sweep: {seed: [1, 2]}\n"
+      "study:\n"
+      "  charts:\n"
+      "    error:\n"
+      "      {title: Figure 6.4, kind: frames, y_label: mm, limits: {threshold: {value: 2}},\n"
+      "       series: {rigid: {value: mean_error, where: [seed=1], color: red}}}\n"
+      "  tables: {t: {title: T, rows: [seed], columns: {error: {value: mean_error}, share: {value: "
+      "tracked / frames}}}}\n"
+      "  pictures: {errors: {title: Figure 6.5}}\n"
+      "  views: {model: {where: [seed=2]}}\n";
   const ExperimentPlan plan =
       this->plan(text, {"data.image_width=160", "data.image_height=120", "data.focal_length=131.25"});
   result_ = run_experiment(*make_task(plan.experiment.values), plan, file("out"), workbench_);

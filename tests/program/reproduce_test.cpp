@@ -46,7 +46,8 @@ class ReproduceTest : public ProgramTest {
       "reports: {}\nmodel: {type: tsdf, volume: fitted, resolution: 64}\nacquisition: {filter: none}\n"
       "data: {type: head, image_width: 160, image_height: 120, focal_length: 131.25, frames: 8, "
       "motion: {rotation_y: 5}}\n"
-      "study: {charts: {error: {title: Figure Six, kind: frames, y_label: mm, series: {e: {value: error_mean}}}}}\n";
+      "study: {charts: {error: {title: Figure Six, kind: frames, y_label: mm, series: {e: {value: "
+      "error_mean}}}}}\n";
   const std::string study =
       "study:\n"
       "  title: Figure One\n"
@@ -89,7 +90,8 @@ TEST_F(ReproduceTest, AChapterByItselfAndWhole) {
 TEST_F(ReproduceTest, AnUnknownChapterIsAnsweredWithWhatThereIs) {
   const ProgramRun run = call("reproduce chapter4");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("unknown chapter 'chapter4'; expected chapter5, chapter6; did you mean 'chapter5'?"));
+  EXPECT_THAT(run.err,
+              HasSubstr("unknown chapter 'chapter4'; expected chapter5, chapter6; did you mean 'chapter5'?"));
 }
 
 TEST_F(ReproduceTest, WhatFailsIsReportedAndKeepsNothingElseFromBeingMade) {

@@ -194,7 +194,8 @@ TEST(StudyChart, OverFramesSaysWhatItLacksAndWhatHasNoPlace) {
 }
 
 TEST(FrameNumbers, HaveTruthsAndNamesWithDots) {
-  const Numbers numbers = numbers_of_frame({{"frame", 7}, {"registered", true}, {"error", {{"rotation", 2}}}});
+  const Numbers numbers =
+      numbers_of_frame({{"frame", 7}, {"registered", true}, {"error", {{"rotation", 2}}}});
   EXPECT_THAT(numbers, ElementsAre(testing::Pair("error.rotation", 2), testing::Pair("frame", 7),
                                    testing::Pair("registered", 1)));
 }
@@ -262,9 +263,10 @@ study:
   EXPECT_EQ(made.findings[0].verdict, Finding::Verdict::confirmed);
   EXPECT_EQ(made.findings[1].reason, "no run has 'a'");
   EXPECT_THAT(made.tables[0].rows[0].cells, ElementsAre("ED", "103.00"));
-  EXPECT_THAT(error_of("study: {claims: {c: {claim: c, values: {a: {value: error, frames: [3, 2]}}, holds: a < "
-                       "1}}}\n"),
-              HasSubstr("'frames' ends before it begins"));
+  EXPECT_THAT(
+      error_of("study: {claims: {c: {claim: c, values: {a: {value: error, frames: [3, 2]}}, holds: a < "
+               "1}}}\n"),
+      HasSubstr("'frames' ends before it begins"));
 }
 
 TEST(StudyClaim, IsJudgedForEachValueOnAnAxis) {
