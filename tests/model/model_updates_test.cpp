@@ -9,7 +9,7 @@ namespace {
 
 class OtherModel : public ReferenceModel {
  public:
-  void integrate(const DepthMap&, const Camera&, const Eigen::Isometry3d&) override {}
+  void integrate(const DepthMap&, const Camera&, const Eigen::Isometry3d&, int) override {}
   const SurfaceMap& raycast(const Camera&, const PixelWindow&, const Eigen::Isometry3d&) override {
     return nothing_;
   }

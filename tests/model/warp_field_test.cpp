@@ -11,11 +11,13 @@
 #include "framework/core/error.h"
 #include "framework/deformation/warp.h"
 #include "tests/model/ball.h"
+#include "tests/model/bending_wall.h"
 
 namespace pliant {
 namespace {
 
 using testing::Ball;
+using testing::BendingWall;
 using Points = std::vector<Eigen::Vector3f>;
 using Form = Eigen::Matrix<float, 3, 4>;
 
@@ -28,40 +30,6 @@ const Ball kFlat{.radius = 0, .wall = kWall};
 const Eigen::Isometry3d kPose = Eigen::Translation3d(12, -9, 25) *
                                 Eigen::AngleAxisd(0.12, Eigen::Vector3d(0.4, 1, -0.3).normalized()) *
                                 Eigen::Isometry3d::Identity();
-
-/// A wall z = kWall that bends along x towards the camera at both sides: what is at (x, y, z) goes to (x, y,
-/// z - bend(x)).
-struct BendingWall {
-  double height = 12;  // mm, at x = 100
-
-  double bend(double x) const { return height * x * x / 1e4; }
-  double slope(double x) const { return 2 * height * x / 1e4; }
-
-  Form form(const Eigen::Vector3f& node) const {
-    Form form = Form::Zero();
-    form(2, 0) = static_cast<float>(-slope(node.x()));
-    form(2, 3) = static_cast<float>(-bend(node.x()));
-    return form;
-  }
-
-  Frame frame(const Eigen::Isometry3d& camera_from_model) const {
-    Frame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
-    const Eigen::Isometry3d model_from_camera = camera_from_model.inverse();
-    for (int v = 0; v < kCamera.height; ++v)
-      for (int u = 0; u < kCamera.width; ++u) {
-        double depth = kWall;
-        for (int round = 0; round < 30; ++round) {
-          const Eigen::Vector3d p = model_from_camera * kCamera.unproject(u, v, depth);
-          depth -= p.z() - (kWall - bend(p.x()));
-        }
-        frame.depth(u, v) = static_cast<float>(depth);
-      }
-    return frame;
-  }
-
-  /// How far a point (mm, model's frame) is from it, along z.
-  double error(const Eigen::Vector3d& p) const { return std::abs(p.z() - (kWall - bend(p.x()))); }
-};
 
 std::unique_ptr<WarpField> make_field(Device& device, double spacing = kSpacing) {
   return std::make_unique<WarpField>(device, std::make_unique<Tsdf>(device, kGrid, 64), spacing);
@@ -97,15 +65,16 @@ Eigen::Vector3f in_model(const Eigen::Vector3f& point) {
   return (kPose.inverse() * point.cast<double>()).cast<float>();
 }
 
-/// Deforms the field as registration from its last view at kPose would, if it were exact.
+/// Deforms the field as registration from its last view at kPose would, if it were exact. `after`: where the
+/// model is then.
 template <class FormOf>
-void deform(WarpField& field, const FormOf& form_of) {
+void deform(WarpField& field, const FormOf& form_of, const Eigen::Isometry3d& after = kPose) {
   const DeformationStart start = field.start();
   EmbeddedGraph graph;
   graph.positions = start.nodes;
   const Array<float> affine =
       forms_of(start.nodes, [&](const Eigen::Vector3f& node) { return seen_form(form_of(in_model(node))); });
-  field.deform({graph, affine, start.rest, 4, kPose, kPose});
+  field.deform({graph, affine, start.rest, 4, kPose, after});
 }
 
 void bend(WarpField& field, const BendingWall& wall = {}) {
@@ -177,7 +146,7 @@ TEST(WarpField, FusesBentFramesIntoTheFlatWall) {
   const BendingWall wall;
   for (int frame = 0; frame < 10; ++frame) {
     const Eigen::Isometry3d pose = kPose * Eigen::AngleAxisd(0.02 * frame, Eigen::Vector3d::UnitY());
-    const DepthMap map(wall.frame(pose));
+    const DepthMap map(wall.frame(kCamera, pose));
     field->integrate(map, kCamera, pose);
     plain.integrate(map, kCamera, pose);
   }
@@ -283,6 +252,24 @@ TEST(WarpField, CarriesThePointsThatAreFollowed) {
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT((back[i] - points[i]).norm(), 1e-3);
 }
 
+TEST(WarpField, LeavesAMotionOfAllToThePose) {
+  Device device;
+  const BendingWall wall;
+  const Points points{{-80, 10, 620}, {5, -40, 620}, {90, 33, 620}};
+  const Eigen::Isometry3d after = Eigen::Translation3d(4, 9, -15) *
+                                  Eigen::AngleAxisd(0.2, Eigen::Vector3d(1, 0.3, 0.5).normalized()) * kPose;
+  std::vector<Points> in_camera;
+  for (const Eigen::Isometry3d& pose : {kPose, after}) {
+    const auto field = flat_field(device);
+    field->follow(flatten(points));
+    deform(
+        *field, [&](const Eigen::Vector3f& node) { return wall.form(node); }, pose);
+    in_camera.push_back(unflatten(field->followed()));
+    for (Eigen::Vector3f& point : in_camera.back()) point = (pose * point.cast<double>()).cast<float>();
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT((in_camera[0][i] - in_camera[1][i]).norm(), 2e-3);
+}
+
 TEST(WarpField, FindsWhereFollowedPointsWereAtRest) {
   Device device;
   const auto field = flat_field(device);
@@ -302,7 +289,7 @@ TEST(WarpField, GivesTheSameBitsEveryTime) {
     Device device;
     const auto field = flat_field(device);
     bend(*field);
-    field->integrate(DepthMap(BendingWall{}.frame(kPose)), kCamera, kPose);
+    field->integrate(DepthMap(BendingWall{}.frame(kCamera, kPose)), kCamera, kPose);
     const SurfaceMap& view = field->view(kCamera, whole_image(kCamera), kPose);
     return std::pair(field->canonical().read().distances, view.points().host());
   };
@@ -312,7 +299,7 @@ TEST(WarpField, GivesTheSameBitsEveryTime) {
 TEST(WarpField, AsksForNoMemoryAfterTheFirstFrames) {
   Device device;
   const auto field = flat_field(device);
-  const DepthMap map(BendingWall{}.frame(kPose));
+  const DepthMap map(BendingWall{}.frame(kCamera, kPose));
   const auto frame = [&] {
     bend(*field);
     field->integrate(map, kCamera, kPose);
@@ -331,7 +318,7 @@ TEST(WarpField, MovesFewPixelsAndVoxels) {
   const Ball wall{.radius = 0, .wall = 600};
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   Device device;
-  auto tsdf = std::make_unique<Tsdf>(device, TsdfGrid{{32, 32, 32}, {-155, -155, 490}, 10, 40}, 64);
+  auto tsdf = std::make_unique<Tsdf>(device, TsdfGrid{{16, 16, 16}, {-150, -150, 490}, 20, 80}, 64);
   WarpField field(device, std::move(tsdf), 100);
   const DepthMap map(wall.frame(camera, pose));
   field.integrate(map, camera, pose);
