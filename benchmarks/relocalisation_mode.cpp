@@ -172,7 +172,7 @@ int run_relocalisation_mode(const Options& options) {
     for (const std::string texture : {"rich", "face", "skin", without_color}) {
       if ((relocalizer->name + " " + texture).find(options.only) == std::string::npos) continue;
       rows.push_back(row_of(relocalizer->name, texture,
-                            measure(relocalizer->name, texture, options.quick ? 20 : 200, registry, device)));
+                            measure(relocalizer->name, texture, options.quick ? 5 : 200, registry, device)));
       const auto& row = rows.back();
       fmt::print(
           "{:<12} {:<5} {:>3} of {} leaps found, {} in the first frame, {} back; {} frames wrong; {:.1f} ms "

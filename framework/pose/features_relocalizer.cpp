@@ -13,8 +13,7 @@ namespace pliant {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr int most_candidates = 4;     // of each kind of features
-constexpr double color_pixels = 7000;  // of the object, of the image in which features are looked for
+constexpr int most_candidates = 4;  // of each kind of features
 
 /// What of a frame the surface is seen of, colour at its pixels.
 Frame shown(const Frame& frame, const Rig& rig, const SurfaceMap& seen) {
@@ -28,11 +27,13 @@ Frame shown(const Frame& frame, const Rig& rig, const SurfaceMap& seen) {
   return part;
 }
 
-/// Of the object as a frame shows it; empty without colour.
-ModelFeatures color_features(const Frame& frame, const Rig& rig, const SurfaceMap& seen) {
+/// Of the object as a frame shows it, in an image where it has so many `pixels` at most; empty without
+/// colour.
+ModelFeatures color_features(const Frame& frame, const Rig& rig, const SurfaceMap& seen, double pixels) {
   if (frame.color.empty()) return {};
+  constexpr double least_scale = 0.05;
   const Frame part = shown(frame, rig, seen);
-  ColorFeatures found = find_color_features(part, seen.camera, scale_of_features(part, 0.1, color_pixels));
+  ColorFeatures found = find_color_features(part, seen.camera, scale_of_features(part, least_scale, pixels));
   return {std::move(found.descriptors), std::move(found.points)};
 }
 
@@ -101,7 +102,8 @@ void FeaturesRelocalizer::remember(const Frame& frame, const SurfaceMap& seen,
     keyframes_.emplace(options_.keyframes, model_from_camera * *middle);
   }
   if (!keyframes_->wants(camera_from_model)) return;
-  Keyframe keyframe{camera_from_model, color_features(frame, rig_, seen), surface_features(seen)};
+  Keyframe keyframe{camera_from_model, color_features(frame, rig_, seen, options_.pixels),
+                    surface_features(seen)};
   move(keyframe.color, model_from_camera);
   move(keyframe.surface, model_from_camera);
   keyframes_->add(std::move(keyframe));
@@ -127,7 +129,7 @@ void FeaturesRelocalizer::gather() {
 
 std::vector<AlignmentResult> FeaturesRelocalizer::by_color(const Frame& frame, const SurfaceMap& seen) const {
   constexpr int neighbours = 8;
-  ModelFeatures features = color_features(frame, rig_, seen);
+  ModelFeatures features = color_features(frame, rig_, seen, options_.pixels);
   if (!color_.index || features.points.empty()) return {};
   const auto found = color_.index->nearest(features.descriptors, features.points.size(), neighbours);
   const auto& known = color_.features.points;
@@ -190,6 +192,11 @@ ParameterTable features_table() {
           .unit("degree")
           .above(0)
           .doc("or the model turns"),
+      real("pixels", options.pixels)
+          .unit("pixel")
+          .range(100, 1e7)
+          .doc("of the object at most in the image where colour features are looked for: it is shrunk, which "
+               "makes a keyframe faster and of fewer features"),
       real("ratio", options.ratio)
           .range(0.1, 1)
           .doc("greatest ratio of a colour match's descriptor distance to that of the nearest elsewhere"),
@@ -211,6 +218,7 @@ FeaturesRelocalizerOptions read_features(const Parameters& section) {
   options.keyframes.most = static_cast<int>(section.integer("keyframes"));
   options.keyframes.distance = section.real("keyframe_distance");
   options.keyframes.angle = section.real("keyframe_angle") * degree;
+  options.pixels = section.real("pixels");
   options.ratio = section.real("ratio");
   options.min_inliers = static_cast<int>(section.integer("min_inliers"));
   options.enough = static_cast<int>(section.integer("enough"));

@@ -16,9 +16,10 @@ namespace pliant {
 
 struct FeaturesRelocalizerOptions {
   KeyframeOptions keyframes;
-  double ratio = 0.8;   ///< nearest over nearest elsewhere: descriptor distances of colour, at most
-  int min_inliers = 8;  ///< colour features; with fewer agreeing there is no pose
-  int enough = 20;      ///< so many agreeing colour features need none of the surface beside them
+  double pixels = 7000;  ///< of the object at most, in the image where colour features are looked for
+  double ratio = 0.8;    ///< nearest over nearest elsewhere: descriptor distances of colour, at most
+  int min_inliers = 8;   ///< colour features; with fewer agreeing there is no pose
+  int enough = 20;       ///< so many agreeing colour features need none of the surface beside them
   RansacOptions ransac{20000, 15};
   std::uint64_t seed = 1;
 };

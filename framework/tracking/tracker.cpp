@@ -147,30 +147,13 @@ bool Tracker::is_sure(const PoseEstimate& pose) const {
   return !pose.failed && share_of(pose) >= least_of_share * usual_share_;
 }
 
-/// Looks for the model where ICP did not reach: wherever the frame shows the object, from the last pose that
-/// was found and from those that the relocalizer names [3.3].
+/// Looks for the model where ICP did not reach [3.3]. What is not found leaves no pose.
 void Tracker::relocalise(const Frame& frame, FrameRecord& record) {
-  FrameRecord search;
-  std::optional<PoseEstimate> best;
-  Eigen::Isometry3d best_start = camera_from_model_;
-  if (auto region = find_region(frame, search)) {
-    if (region->mask.empty()) region->window = window_->move_to(region->window);
-    region_ = *std::move(region);
-    preprocess(frame);
-    auto starts =
-        timed(record.time_ms, "relocalisation", [&] { return relocalizer_->candidates(frame, seen()); });
-    starts.insert(starts.begin(), camera_from_model_);
-    for (const Eigen::Isometry3d& start : starts) {
-      const PoseEstimate pose = timed(record.time_ms, "pose", [&] { return estimate_from(start); });
-      if (!is_sure(pose) || (best && pose.inliers <= best->inliers)) continue;
-      best = pose;
-      best_start = start;
-    }
-  }
-  record.relocalized = best.has_value();
-  if (best) {
-    record.pose = *best;
-    camera_from_model_ = best_start;
+  const std::optional<Found> found = search(frame, record);
+  record.relocalized = found.has_value();
+  if (found) {
+    record.pose = found->pose;
+    camera_from_model_ = found->start;
     model_view_ = &model_->view(rig_.depth, seen().window, camera_from_model_);
     return;
   }
@@ -179,6 +162,26 @@ void Tracker::relocalise(const Frame& frame, FrameRecord& record) {
   record.pose.failed = true;
   record.pose.reason = fmt::format("{:.0f} % of the model's points have a match, expected {:.0f} %",
                                    100 * share_of(record.pose), 100 * least_of_share * usual_share_);
+}
+
+/// Wherever the frame shows the object, from the last pose that was found and from those that the relocalizer
+/// names: the pose with most matches.
+std::optional<Tracker::Found> Tracker::search(const Frame& frame, FrameRecord& record) {
+  FrameRecord searched;
+  auto region = find_region(frame, searched);
+  if (!region) return std::nullopt;
+  if (window_ && region->mask.empty()) region->window = window_->move_to(region->window);
+  region_ = *std::move(region);
+  preprocess(frame);
+  auto starts =
+      timed(record.time_ms, "relocalisation", [&] { return relocalizer_->candidates(frame, seen()); });
+  starts.insert(starts.begin(), camera_from_model_);
+  std::optional<Found> best;
+  for (const Eigen::Isometry3d& start : starts) {
+    const PoseEstimate pose = timed(record.time_ms, "pose", [&] { return estimate_from(start); });
+    if (is_sure(pose) && (!best || pose.inliers > best->pose.inliers)) best = Found{start, pose};
+  }
+  return best;
 }
 
 PoseEstimate Tracker::estimate_from(const Eigen::Isometry3d& camera_from_model) {

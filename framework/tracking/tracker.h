@@ -54,6 +54,11 @@ class Tracker {
   void follow(const Frame& frame, FrameRecord& record);
   bool is_sure(const PoseEstimate& pose) const;
   void relocalise(const Frame& frame, FrameRecord& record);
+  struct Found {
+    Eigen::Isometry3d start;  // camera_from_model, mm, that ICP began with
+    PoseEstimate pose;
+  };
+  std::optional<Found> search(const Frame& frame, FrameRecord& record);
   PoseEstimate estimate_from(const Eigen::Isometry3d& camera_from_model);
   void remember(const Frame& frame, FrameRecord& record);
   void register_model(FrameRecord& record);
