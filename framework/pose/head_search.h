@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "framework/geometry/camera.h"
+#include "framework/geometry/image.h"
+#include "framework/pose/head_forest.h"
+
+namespace pliant {
+
+/// Which patches are asked, and which answers count.
+struct HeadSearchOptions {
+  int stride = 4;                ///< pixels from one patch to the next
+  double least_share = 0.7;      ///< of a leaf's patches that were on a head, for it to vote
+  double greatest_spread = 45;   ///< mm of the centre, for a leaf to vote
+  double least_confidence = 0.2;
+};
+
+/// A head in a depth map.
+struct HeadEstimate {
+  Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();  ///< mm; the head's frame and centre are those of HeadForest
+  /// The votes that agree, as a share of those that a whole head at its distance could cast, at most 1.
+  double confidence = 0;
+};
+
+/// Finds the head of which a depth map (mm) shows the most, where it shows one: patches on a grid vote for its
+/// centre, mean shift [Comaniciu, Meer 2002] finds where most agree, and these tell the rotation. The same
+/// input gives the same bits.
+std::optional<HeadEstimate> find_head(const HeadForest& forest, const DepthImage& depth, const Camera& camera,
+                                      const HeadSearchOptions& options);
+
+}  // namespace pliant
