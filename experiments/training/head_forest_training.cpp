@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "experiments/training/all_processors.h"
 #include "experiments/training/head_sitter.h"
+#include "framework/pose/head_search.h"
 
 namespace pliant {
 namespace {
@@ -16,6 +18,7 @@ constexpr std::uint64_t figure_stream = 1'000'000;
 constexpr std::uint64_t view_stream = 2'000'000;
 constexpr std::uint64_t other_stream = 3'000'000;
 constexpr std::uint64_t tree_stream = 4'000'000;
+constexpr std::uint64_t refining_tree_stream = 5'000'000;
 
 const FigureKind& figure_kind(const std::string& name) {
   const auto& kinds = figure_kinds();
@@ -48,9 +51,9 @@ std::vector<TrainingPatch> patches_of(const HeadView& view, int heads, int other
   const Eigen::Vector3f angles = head_angles(view.camera_from_head.linear()).cast<float>();
   for (const auto& [shown, count] : {std::pair{Shown::head, heads}, {Shown::other, others}}) {
     for (const Eigen::Vector2i& pixel : random_pixels(view, shown, count, draw)) {
-      TrainingPatch patch{DepthPatch(view.depth, camera, pixel.x(), pixel.y())};
-      patch.is_head = shown == Shown::head;
       const Eigen::Vector3d point = camera.unproject(pixel.x(), pixel.y(), view.depth(pixel.x(), pixel.y()));
+      TrainingPatch patch{patch_around(view.depth, camera, point)};
+      patch.is_head = shown == Shown::head;
       patch.offset = (view.camera_from_head.translation() - point).cast<float>();
       patch.angles = angles;
       patches.push_back(patch);
@@ -59,16 +62,45 @@ std::vector<TrainingPatch> patches_of(const HeadView& view, int heads, int other
   return patches;
 }
 
-/// The patches of many views, which `view` draws, in their order.
-template <class View>
-void add_views(std::vector<TrainingPatch>& patches, int count, int heads, int others, std::uint64_t seed,
-               std::uint64_t stream, View view) {
-  std::vector<std::vector<TrainingPatch>> parts(static_cast<std::size_t>(count));
+/// Of poses as they may be taken for the head's: some almost right, others as far away as votes are.
+std::vector<TrainingPatch> refining_patches_of(const HeadView& view, int count, Draw& draw) {
+  const Eigen::Vector3d farthest_turn = Eigen::Vector3d(16, 26, 12) * std::numbers::pi / 180;
+  constexpr double farthest_offset = 18;  // mm
+  const std::vector<Eigen::Vector3f> points =
+      points_near(view.depth, head_camera(), view.camera_from_head.translation());
+  std::vector<TrainingPatch> patches;
+  for (int i = 0; i < count; ++i) {
+    const double share = draw.uniform(0, 1);
+    Eigen::Vector3d offset;
+    Eigen::Vector3d turn;
+    for (int axis = 0; axis < 3; ++axis) {
+      offset[axis] = share * farthest_offset * draw.normal();
+      turn[axis] = share * farthest_turn[axis] * draw.normal();
+    }
+    TrainingPatch patch{patch_of_head(points, view.camera_from_head * moved(offset, turn).inverse())};
+    patch.is_head = true;
+    patch.offset = offset.cast<float>();
+    patch.angles = turn.cast<float>();
+    patches.push_back(patch);
+  }
+  return patches;
+}
+
+/// The patches of many views in their order, each drawn with a stream of its own.
+HeadPatches patches_of_views(int count, std::uint64_t seed, std::uint64_t stream,
+                             const std::function<HeadPatches(Draw&)>& of_view) {
+  std::vector<HeadPatches> parts(static_cast<std::size_t>(count));
   on_all_processors(parts.size(), [&](std::size_t i) {
     Draw draw(seed, stream + i);
-    parts[i] = patches_of(view(draw), heads, others, draw);
+    parts[i] = of_view(draw);
   });
-  for (const auto& part : parts) patches.insert(patches.end(), part.begin(), part.end());
+  HeadPatches all;
+  for (HeadPatches& part : parts) {
+    all.voting.insert(all.voting.end(), part.voting.begin(), part.voting.end());
+    all.refining.insert(all.refining.end(), part.refining.begin(), part.refining.end());
+    part = {};
+  }
+  return all;
 }
 
 std::vector<Figure> other_figures(std::uint64_t seed) {
@@ -82,37 +114,56 @@ std::vector<Figure> other_figures(std::uint64_t seed) {
   return others;
 }
 
-std::vector<TrainingPatch> draw_patches(const HeadForestTraining& training) {
-  const std::uint64_t seed = training.seed;
-  const int others = training.patches / 2;
-  std::vector<TrainingPatch> patches;
-  const HeadViews views(random_figures("head", training.heads, seed, figure_stream), training.view);
-  add_views(patches, training.views, training.patches, others, seed, view_stream,
-            [&](Draw& draw) { return views.draw(draw); });
-  if (training.other_views == 0) return patches;
-  const std::vector<Figure> figures = other_figures(seed);
-  add_views(patches, training.other_views, 0, 2 * others, seed, other_stream,
-            [&](Draw& draw) { return draw_figure(figures[draw.index(figures.size())], training.view, draw); });
-  return patches;
+std::vector<HeadTree> grow_trees(const std::vector<TrainingPatch>& patches, int count, double share,
+                                 const GrowthOptions& options, std::uint64_t seed, std::uint64_t stream) {
+  std::vector<HeadTree> trees(static_cast<std::size_t>(count));
+  on_all_processors(trees.size(), [&](std::size_t i) {
+    Draw draw(seed, stream + i);
+    std::vector<const TrainingPatch*> own;
+    for (const TrainingPatch& patch : patches)
+      if (draw.chance(share)) own.push_back(&patch);
+    trees[i] = grow_tree(std::move(own), options, draw);
+  });
+  return trees;
 }
 
 }  // namespace
 
+HeadPatches draw_head_patches(const HeadForestTraining& training) {
+  const std::uint64_t seed = training.seed;
+  const int others = training.patches / 2;
+  const HeadViews views(random_figures("head", training.heads, seed, figure_stream), training.view);
+  HeadPatches patches = patches_of_views(training.views, seed, view_stream, [&](Draw& draw) {
+    const HeadView view = views.draw(draw);
+    HeadPatches of_view;
+    of_view.voting = patches_of(view, training.patches, others, draw);
+    of_view.refining = refining_patches_of(view, training.refining_patches, draw);
+    return of_view;
+  });
+  if (training.other_views == 0) return patches;
+  const std::vector<Figure> figures = other_figures(seed);
+  const HeadPatches more = patches_of_views(training.other_views, seed, other_stream, [&](Draw& draw) {
+    const HeadView view = draw_figure(figures[draw.index(figures.size())], training.view, draw);
+    return HeadPatches{patches_of(view, 0, 2 * others, draw), {}};
+  });
+  patches.voting.insert(patches.voting.end(), more.voting.begin(), more.voting.end());
+  return patches;
+}
+
+HeadForest grow_head_forest(const HeadPatches& patches, const HeadForestTraining& training) {
+  return {grow_trees(patches.voting, training.trees, training.patches_of_tree, training.growth, training.seed,
+                     tree_stream),
+          grow_trees(patches.refining, training.refining_trees, training.patches_of_tree, training.refining_growth,
+                     training.seed, refining_tree_stream)};
+}
+
 HeadForest train_head_forest(const HeadForestTraining& training,
                              const std::function<void(const std::string&)>& tell) {
   tell(fmt::format("rendering {} views of {} heads", training.views, training.heads));
-  const std::vector<TrainingPatch> patches = draw_patches(training);
-  tell(fmt::format("growing {} trees on {} patches", training.trees, patches.size()));
-  HeadForest forest;
-  forest.trees.resize(static_cast<std::size_t>(training.trees));
-  on_all_processors(forest.trees.size(), [&](std::size_t i) {
-    Draw draw(training.seed, tree_stream + i);
-    std::vector<const TrainingPatch*> own;
-    for (const TrainingPatch& patch : patches)
-      if (draw.chance(training.patches_of_tree)) own.push_back(&patch);
-    forest.trees[i] = grow_tree(std::move(own), training.growth, draw);
-  });
-  return forest;
+  const HeadPatches patches = draw_head_patches(training);
+  tell(fmt::format("growing {} trees on {} patches, and {} on {} of whole heads that refine", training.trees,
+                   patches.voting.size(), training.refining_trees, patches.refining.size()));
+  return grow_head_forest(patches, training);
 }
 
 }  // namespace pliant

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "framework/geometry/camera.h"
 #include "framework/geometry/image.h"
@@ -17,19 +19,17 @@ struct CellBox {
   std::uint8_t bottom = 1;
 };
 
-/// What surrounds a point of a depth map, as the trees of a HeadForest look at it: a square of 160 mm, whatever
-/// the point's depth. It is upright in the image and cut into cells, each the depth of one pixel beyond that
-/// of the point. Holes, what is outside of the image, and whatever is further behind than a head is deep
-/// count alike, so that the background plays no part. Kept as an integral image, so that the mean over any
-/// box costs the same.
+/// Depths in a square, as the trees of a HeadForest look at them: cells, each by so many mm beyond a point in the
+/// middle. Holes, and what lies beyond it by more than a head is deep, count alike, so that the background plays
+/// no part. Kept as an integral image, so that the mean over any box costs the same.
 class DepthPatch {
  public:
-  static constexpr int cells = 32;        ///< in each direction
-  static constexpr float cell_size = 5;   ///< mm
-  static constexpr float reach = 150;     ///< mm that a cell counts as nearer or farther than the point, at most
+  static constexpr int cells = 32;     ///< in each direction
+  static constexpr float reach = 150;  ///< mm: a cell counts as no nearer or farther than that
+  /// mm beyond the point in the middle, row by row; NaN for holes.
+  using Cells = std::array<float, std::size_t{cells} * cells>;
 
-  /// Around pixel (u, v), which has depth.
-  DepthPatch(const DepthImage& depth, const Camera& camera, int u, int v);
+  explicit DepthPatch(const Cells& depths);
 
   /// Mean depth of the cells of a box, mm; the same offset to all means of a patch is left in.
   float mean(const CellBox& box) const {
@@ -47,5 +47,12 @@ class DepthPatch {
 
   std::array<std::int32_t, std::size_t{row} * row> sums_;
 };
+
+/// What a depth map (mm) shows around a point (mm, camera frame), upright in the image: 160 mm at the point's depth.
+DepthPatch patch_around(const DepthImage& depth, const Camera& camera, const Eigen::Vector3d& point);
+
+/// What points (mm, camera frame) show of a head, seen straight from the front if it is where it is said to be:
+/// 256 mm around its centre.
+DepthPatch patch_of_head(const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& camera_from_head);
 
 }  // namespace pliant

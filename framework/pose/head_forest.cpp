@@ -33,4 +33,12 @@ Eigen::Vector3d head_angles(const Eigen::Matrix3d& camera_from_head) {
           std::atan2(turned(1, 0), turned(1, 1))};
 }
 
+Eigen::Isometry3d moved(const Eigen::Vector3d& offset, const Eigen::Vector3d& turn) {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.translation() = offset;
+  const double angle = turn.norm();
+  if (angle > 0) motion.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  return motion;
+}
+
 }  // namespace pliant

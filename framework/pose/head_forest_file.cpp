@@ -9,8 +9,8 @@
 #include "framework/io/little_endian.h"
 #include "framework/pose/head_forest.h"
 
-// magic, 8 bytes; version, length of what follows the header, its checksum, trees, each uint32; then every tree in
-// preorder, a byte before each node saying what it is:
+// magic, 8 bytes; version, length of what follows the header, its checksum, trees that vote, trees that refine,
+// each uint32; then every tree in preorder, a byte before each node saying what it is:
 //   split          two boxes of four uint8, threshold int16 (1/32 mm); what is below, what is above
 //   leaf of heads  share uint8 (1/255), offset 3 int16 (1/32 mm), angles 3 int16 (1e-4 rad), spreads 2 uint16
 //   other leaf     nothing
@@ -79,9 +79,11 @@ class Reader {
   HeadForest read() {
     check_header();
     HeadForest forest;
-    const std::uint32_t trees = number();
-    if (trees == 0) fail("there is no tree; expected at least one");
-    for (std::uint32_t i = 0; i < trees; ++i) read_node(forest.trees.emplace_back(), 0);
+    const std::uint32_t voting = number();
+    const std::uint32_t refining = number();
+    if (voting == 0 || refining == 0) fail("there are no trees of one kind; expected at least one of each");
+    for (std::uint32_t i = 0; i < voting; ++i) read_node(forest.voting.emplace_back(), 0);
+    for (std::uint32_t i = 0; i < refining; ++i) read_node(forest.refining.emplace_back(), 0);
     if (at_ != bytes_.size()) fail(fmt::format("{} bytes follow its last tree", bytes_.size() - at_));
     return forest;
   }
@@ -175,8 +177,10 @@ class Reader {
 
 std::vector<std::uint8_t> write_head_forest(const HeadForest& forest) {
   std::vector<std::uint8_t> body;
-  append(body, static_cast<std::uint32_t>(forest.trees.size()));
-  for (const HeadTree& tree : forest.trees) TreeWriter(body).write(tree, tree.nodes.empty() ? -1 : 0);
+  for (const auto* trees : {&forest.voting, &forest.refining})
+    append(body, static_cast<std::uint32_t>(trees->size()));
+  for (const auto* trees : {&forest.voting, &forest.refining})
+    for (const HeadTree& tree : *trees) TreeWriter(body).write(tree, tree.nodes.empty() ? -1 : 0);
   std::vector<std::uint8_t> bytes(magic.begin(), magic.end());
   append(bytes, version);
   append(bytes, static_cast<std::uint32_t>(body.size()));

@@ -13,8 +13,9 @@ namespace {
 constexpr double bandwidth = 20;     // mm, of mean shift
 constexpr double agreeing = 40;      // mm from the centre
 constexpr double cell = 60;          // mm, of the grid in which the search begins
+constexpr float least_angle = 0.02F;  // radians: no vote is surer of its angles
+constexpr int refinements = 8;
 constexpr double head_area = 22000;  // mm^2 that a camera sees of a head, about
-constexpr double one_head = 0.35;    // radians: rotations further from the mean do not agree
 
 struct Vote {
   Eigen::Vector3d centre;  // mm, camera frame
@@ -28,9 +29,9 @@ std::vector<Vote> cast_votes(const HeadForest& forest, const DepthImage& depth, 
   for (int v = options.stride / 2; v < depth.height(); v += options.stride) {
     for (int u = options.stride / 2; u < depth.width(); u += options.stride) {
       if (!is_depth(depth(u, v))) continue;
-      const DepthPatch patch(depth, camera, u, v);
       const Eigen::Vector3d point = camera.unproject(u, v, depth(u, v));
-      for (const HeadTree& tree : forest.trees) {
+      const DepthPatch patch = patch_around(depth, camera, point);
+      for (const HeadTree& tree : forest.voting) {
         const HeadLeaf& leaf = tree.leaf_of(patch);
         if (leaf.head_share < options.least_share || leaf.offset_spread > options.greatest_spread) continue;
         const double spread = std::max(leaf.offset_spread, 1.0F);
@@ -94,24 +95,53 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& sum) {
   return u * svd.matrixV().transpose();
 }
 
-/// The mean of the rotations of votes, the second time without those that are far from it.
-Eigen::Matrix3d mean_rotation(const std::vector<const Vote*>& votes) {
-  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-  for (const bool is_first : {true, false}) {
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (const Vote* vote : votes) {
-      const Eigen::Matrix3d rotation = head_rotation(vote->leaf->angles.cast<double>());
-      if (!is_first && Eigen::AngleAxisd(mean.transpose() * rotation).angle() > one_head) continue;
-      const double spread = std::max(vote->leaf->angle_spread, 0.01F);
-      sum += rotation / (spread * spread);
-    }
-    if (sum.isZero()) break;
-    mean = nearest_rotation(sum);
+/// What votes agree upon.
+Eigen::Isometry3d mean_pose(const std::vector<const Vote*>& votes, const Eigen::Vector3d& centre) {
+  Eigen::Matrix3d rotations = Eigen::Matrix3d::Zero();
+  for (const Vote* vote : votes) {
+    const double spread = std::max(vote->leaf->angle_spread, least_angle);
+    rotations += head_rotation(vote->leaf->angles.cast<double>()) / (spread * spread);
   }
-  return mean;
+  Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
+  camera_from_head.linear() = nearest_rotation(rotations);
+  camera_from_head.translation() = centre;
+  return camera_from_head;
+}
+
+/// Nearer to the head's pose than one that is nearly right.
+Eigen::Isometry3d refined(const std::vector<HeadTree>& trees, const std::vector<Eigen::Vector3f>& points,
+                          const Eigen::Isometry3d& camera_from_head) {
+  const DepthPatch patch = patch_of_head(points, camera_from_head);
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  for (const HeadTree& tree : trees) {
+    const HeadLeaf& leaf = tree.leaf_of(patch);
+    offset += leaf.offset.cast<double>() / static_cast<double>(trees.size());
+    turn += leaf.angles.cast<double>() / static_cast<double>(trees.size());
+  }
+  return camera_from_head * moved(offset, turn);
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector3f> points_near(const DepthImage& depth, const Camera& camera,
+                                         const Eigen::Vector3d& centre) {
+  constexpr double radius = 200;  // mm
+  constexpr double spacing = 2.5;
+  const Eigen::Vector2d pixel = camera.project(centre);
+  const Eigen::Vector2d around = Eigen::Vector2d(camera.fx, camera.fy) * radius / centre.z();
+  const int step = std::max(1, static_cast<int>(spacing * camera.fx / centre.z()));
+  const auto first = [](double value) { return static_cast<int>(std::max(value, 0.0)); };
+  const auto last = [](double value, int size) { return static_cast<int>(std::min(value, size - 1.0)); };
+  std::vector<Eigen::Vector3f> points;
+  for (int v = first(pixel.y() - around.y()); v <= last(pixel.y() + around.y(), depth.height()); v += step) {
+    for (int u = first(pixel.x() - around.x()); u <= last(pixel.x() + around.x(), depth.width()); u += step) {
+      if (!is_depth(depth(u, v)) || std::abs(depth(u, v) - centre.z()) > radius) continue;
+      points.push_back(camera.unproject(u, v, depth(u, v)).cast<float>());
+    }
+  }
+  return points;
+}
 
 std::optional<HeadEstimate> find_head(const HeadForest& forest, const DepthImage& depth, const Camera& camera,
                                       const HeadSearchOptions& options) {
@@ -122,13 +152,16 @@ std::optional<HeadEstimate> find_head(const HeadForest& forest, const DepthImage
   for (const Vote& vote : votes)
     if ((vote.centre - centre).norm() < agreeing) agree.push_back(&vote);
   if (agree.empty() || !(centre.z() > 0)) return std::nullopt;
-  const double patches = head_area * camera.fx * camera.fy / (centre.z() * centre.z()) / (options.stride * options.stride);
-  const double possible = patches * static_cast<double>(forest.trees.size());
+  const double patches =
+      head_area * camera.fx * camera.fy / (centre.z() * centre.z()) / (options.stride * options.stride);
+  const double possible = patches * static_cast<double>(forest.voting.size());
   HeadEstimate estimate;
   estimate.confidence = std::min(static_cast<double>(agree.size()) / possible, 1.0);
   if (estimate.confidence < options.least_confidence) return std::nullopt;
-  estimate.camera_from_head.linear() = mean_rotation(agree);
-  estimate.camera_from_head.translation() = centre;
+  const std::vector<Eigen::Vector3f> points = points_near(depth, camera, centre);
+  estimate.camera_from_head = mean_pose(agree, centre);
+  for (int i = 0; i < refinements; ++i)
+    estimate.camera_from_head = refined(forest.refining, points, estimate.camera_from_head);
   return estimate;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <vector>
 
 #include "framework/geometry/camera.h"
 #include "framework/geometry/image.h"
@@ -24,9 +25,14 @@ struct HeadEstimate {
   double confidence = 0;
 };
 
+/// The points (mm, camera frame) that may belong to a head with this centre; where more of it is seen than is
+/// needed, not all.
+std::vector<Eigen::Vector3f> points_near(const DepthImage& depth, const Camera& camera,
+                                         const Eigen::Vector3d& centre);
+
 /// Finds the head of which a depth map (mm) shows the most, where it shows one: patches on a grid vote for its
-/// centre, mean shift [Comaniciu, Meer 2002] finds where most agree, and these tell the rotation. The same
-/// input gives the same bits.
+/// centre, mean shift [Comaniciu, Meer 2002] finds where most agree, and the pose that
+/// they give is refined. The same input gives the same bits.
 std::optional<HeadEstimate> find_head(const HeadForest& forest, const DepthImage& depth, const Camera& camera,
                                       const HeadSearchOptions& options);
 
