@@ -38,5 +38,6 @@ int run_pair_mode(const Options& options);
 int run_render_mode(const Options& options);
 int run_pose_mode(const Options& options);
 int run_tracking_mode(const Options& options);
+int run_head_forest_mode(const Options& options);
 
 }  // namespace pliant::bench

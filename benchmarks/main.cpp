@@ -40,6 +40,9 @@ int main(int argument_count, char** arguments) {
   const auto* pose = add_mode("pose", "Rigid tracking of sequences whose poses are known, beside OpenCV's");
   const auto* tracking = add_mode(
       "tracking", "Stages of a tracked frame beside OpenCV's; ratio_to_opencv: our time over OpenCV's");
+  auto* head_forest =
+      add_mode("head_forest", "Errors of the forest that finds heads, on heads it was not trained on");
+  head_forest->add_option("--data", options.data, "Folder in which data is looked for first");
   CLI11_PARSE(app, argument_count, arguments);
   try {
     if (solver->parsed()) return pliant::bench::run_solver_mode(options);
@@ -48,6 +51,7 @@ int main(int argument_count, char** arguments) {
     if (render->parsed()) return pliant::bench::run_render_mode(options);
     if (pose->parsed()) return pliant::bench::run_pose_mode(options);
     if (tracking->parsed()) return pliant::bench::run_tracking_mode(options);
+    if (head_forest->parsed()) return pliant::bench::run_head_forest_mode(options);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 1;

@@ -9,6 +9,7 @@
 #include "framework/model/reference_model.h"
 #include "framework/pose/alignments.h"
 #include "framework/pose/pose_estimator.h"
+#include "framework/pose/relocalizer.h"
 #include "framework/registration/correspondence.h"
 #include "framework/registration/handle.h"
 #include "framework/segmentation/segmentations.h"
@@ -26,6 +27,7 @@ void register_everything(Registry& registry) {
   register_models(registry);
   register_alignments(registry);
   register_pose_estimators(registry);
+  register_relocalizers(registry);
   register_graphs(registry);
   register_transforms(registry);
   register_samplers(registry);

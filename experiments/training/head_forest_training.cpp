@@ -1,13 +1,13 @@
 #include "experiments/training/head_forest_training.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <functional>
 #include <numbers>
 #include <utility>
 
 #include "experiments/training/all_processors.h"
 #include "experiments/training/head_sitter.h"
+#include "experiments/training/head_trial.h"
 #include "framework/pose/head_search.h"
 
 namespace pliant {
@@ -17,15 +17,16 @@ namespace {
 constexpr std::uint64_t figure_stream = 1'000'000;
 constexpr std::uint64_t view_stream = 2'000'000;
 constexpr std::uint64_t other_stream = 3'000'000;
-constexpr std::uint64_t tree_stream = 4'000'000;
-constexpr std::uint64_t refining_tree_stream = 5'000'000;
+constexpr std::uint64_t voting_stream = 4'000'000;
+constexpr std::uint64_t refining_stream = 5'000'000;
 
 const FigureKind& figure_kind(const std::string& name) {
   const auto& kinds = figure_kinds();
   return *std::find_if(kinds.begin(), kinds.end(), [&](const FigureKind& kind) { return kind.name == name; });
 }
 
-std::vector<Figure> random_figures(const std::string& name, int count, std::uint64_t seed, std::uint64_t stream) {
+std::vector<Figure> random_figures(const std::string& name, int count, std::uint64_t seed,
+                                   std::uint64_t stream) {
   std::vector<Figure> figures(static_cast<std::size_t>(count));
   on_all_processors(figures.size(), [&](std::size_t i) {
     Draw draw(seed, stream + i);
@@ -64,8 +65,8 @@ std::vector<TrainingPatch> patches_of(const HeadView& view, int heads, int other
 
 /// Of poses as they may be taken for the head's: some almost right, others as far away as votes are.
 std::vector<TrainingPatch> refining_patches_of(const HeadView& view, int count, Draw& draw) {
-  const Eigen::Vector3d farthest_turn = Eigen::Vector3d(16, 26, 12) * std::numbers::pi / 180;
-  constexpr double farthest_offset = 18;  // mm
+  const Eigen::Vector3d farthest_turn = Eigen::Vector3d(22, 36, 15) * std::numbers::pi / 180;
+  constexpr double farthest_offset = 22;  // mm
   const std::vector<Eigen::Vector3f> points =
       points_near(view.depth, head_camera(), view.camera_from_head.translation());
   std::vector<TrainingPatch> patches;
@@ -114,30 +115,35 @@ std::vector<Figure> other_figures(std::uint64_t seed) {
   return others;
 }
 
-std::vector<HeadTree> grow_trees(const std::vector<TrainingPatch>& patches, int count, double share,
-                                 const GrowthOptions& options, std::uint64_t seed, std::uint64_t stream) {
-  std::vector<HeadTree> trees(static_cast<std::size_t>(count));
+std::vector<HeadTree> grow_trees(const std::vector<TrainingPatch>& patches,
+                                 const HeadForestTraining::Trees& options, double share, std::uint64_t seed,
+                                 std::uint64_t stream) {
+  std::vector<HeadTree> trees(static_cast<std::size_t>(options.count));
   on_all_processors(trees.size(), [&](std::size_t i) {
     Draw draw(seed, stream + i);
     std::vector<const TrainingPatch*> own;
     for (const TrainingPatch& patch : patches)
       if (draw.chance(share)) own.push_back(&patch);
-    trees[i] = grow_tree(std::move(own), options, draw);
+    trees[i] = grow_tree(own, options.growth, draw);
   });
   return trees;
 }
 
 }  // namespace
 
+std::vector<Figure> random_heads(int count, std::uint64_t seed, std::uint64_t stream) {
+  return random_figures("head", count, seed, stream);
+}
+
 HeadPatches draw_head_patches(const HeadForestTraining& training) {
   const std::uint64_t seed = training.seed;
-  const int others = training.patches / 2;
-  const HeadViews views(random_figures("head", training.heads, seed, figure_stream), training.view);
+  const int others = training.voting.patches / 2;
+  const HeadViews views(random_heads(training.heads, seed, figure_stream), training.view);
   HeadPatches patches = patches_of_views(training.views, seed, view_stream, [&](Draw& draw) {
     const HeadView view = views.draw(draw);
     HeadPatches of_view;
-    of_view.voting = patches_of(view, training.patches, others, draw);
-    of_view.refining = refining_patches_of(view, training.refining_patches, draw);
+    of_view.voting = patches_of(view, training.voting.patches, others, draw);
+    of_view.refining = refining_patches_of(view, training.refining.patches, draw);
     return of_view;
   });
   if (training.other_views == 0) return patches;
@@ -151,19 +157,12 @@ HeadPatches draw_head_patches(const HeadForestTraining& training) {
 }
 
 HeadForest grow_head_forest(const HeadPatches& patches, const HeadForestTraining& training) {
-  return {grow_trees(patches.voting, training.trees, training.patches_of_tree, training.growth, training.seed,
-                     tree_stream),
-          grow_trees(patches.refining, training.refining_trees, training.patches_of_tree, training.refining_growth,
-                     training.seed, refining_tree_stream)};
-}
-
-HeadForest train_head_forest(const HeadForestTraining& training,
-                             const std::function<void(const std::string&)>& tell) {
-  tell(fmt::format("rendering {} views of {} heads", training.views, training.heads));
-  const HeadPatches patches = draw_head_patches(training);
-  tell(fmt::format("growing {} trees on {} patches, and {} on {} of whole heads that refine", training.trees,
-                   patches.voting.size(), training.refining_trees, patches.refining.size()));
-  return grow_head_forest(patches, training);
+  const auto grow = [&](const std::vector<TrainingPatch>& all, const HeadForestTraining::Trees& trees,
+                        std::uint64_t stream) {
+    return grow_trees(all, trees, training.share, training.seed, stream);
+  };
+  return {grow(patches.voting, training.voting, voting_stream),
+          grow(patches.refining, training.refining, refining_stream)};
 }
 
 }  // namespace pliant

@@ -50,7 +50,8 @@ std::vector<Point> random_form(const Figure& figure, Draw& draw) {
 void vary_head(std::vector<Point>& vertices, double strength, Draw& draw) {
   if (strength == 0) return;
   Point stretch;
-  for (int axis = 0; axis < 3; ++axis) stretch[axis] = 1 + strength * std::clamp(0.03 * draw.normal(), -0.07, 0.07);
+  for (int axis = 0; axis < 3; ++axis)
+    stretch[axis] = 1 + strength * std::clamp(0.03 * draw.normal(), -0.07, 0.07);
   std::array<Dent, 6> dents;
   for (Dent& dent : dents) dent = random_dent(strength, draw);
   const double hair = draw.chance(0.6) ? strength * draw.uniform(0, 30) : 0;

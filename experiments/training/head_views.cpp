@@ -86,10 +86,12 @@ void add_shoulders(Scene& scene, const Eigen::Isometry3d& camera_from_shoulders,
 /// Something before the head, beside it, or behind.
 void add_clutter(Scene& scene, const Point& head, Draw& draw) {
   const bool is_before = draw.chance(0.5);
-  const Point away = is_before ? Point(draw.uniform(-160, 160), draw.uniform(-60, 200), draw.uniform(-260, -150))
-                               : Point(draw.uniform(-500, 500), draw.uniform(-300, 300), draw.uniform(150, 700));
+  const Point away = is_before
+                         ? Point(draw.uniform(-160, 160), draw.uniform(-60, 200), draw.uniform(-260, -150))
+                         : Point(draw.uniform(-500, 500), draw.uniform(-300, 300), draw.uniform(150, 700));
   const double size = is_before ? draw.uniform(20, 60) : draw.uniform(60, 400);
-  const Point radii(size * draw.uniform(0.5, 1.5), size * draw.uniform(0.5, 1.5), size * draw.uniform(0.3, 1));
+  const Point radii(size * draw.uniform(0.5, 1.5), size * draw.uniform(0.5, 1.5),
+                    size * draw.uniform(0.3, 1));
   scene.add_ellipsoid(placed(head + away, random_angles({180, 90, 180}, draw)), radii);
 }
 
@@ -130,8 +132,10 @@ HeadView HeadViews::draw(Draw& draw) const {
   for (const auto& face : head.mesh.triangles)
     above_neck.push_back(vertices[static_cast<std::size_t>(face[0])].y() > chin ? Shown::head : Shown::other);
   const bool has_shoulders = draw.chance(options_.company);
-  if (has_shoulders) bend_neck(vertices, camera_from_head, camera_from_shoulders);
-  else for (Point& vertex : vertices) vertex = camera_from_head * vertex;
+  if (has_shoulders)
+    bend_neck(vertices, camera_from_head, camera_from_shoulders);
+  else
+    for (Point& vertex : vertices) vertex = camera_from_head * vertex;
   Scene scene;
   scene.add(vertices, head.mesh.triangles, Shown::head);
   scene.what = std::move(above_neck);
@@ -145,7 +149,8 @@ HeadView HeadViews::draw(Draw& draw) const {
 HeadView draw_figure(const Figure& figure, const HeadViewOptions& options, Draw& draw) {
   std::vector<Point> vertices = random_form(figure, draw);
   const Point middle = box_around(vertices).center();
-  const Eigen::Isometry3d pose = placed(random_place(options, draw), random_angles(options.greatest_angles, draw));
+  const Eigen::Isometry3d pose =
+      placed(random_place(options, draw), random_angles(options.greatest_angles, draw));
   for (Point& vertex : vertices) vertex = pose * (vertex - middle);
   Scene scene;
   scene.add(vertices, figure.mesh.triangles, Shown::other);

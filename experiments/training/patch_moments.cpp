@@ -24,8 +24,7 @@ double half_log_determinant(const Eigen::Matrix<double, 6, 1>& covariance, doubl
   const double xy = covariance[1];
   const double xz = covariance[2];
   const double yz = covariance[4];
-  const double determinant =
-      xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  const double determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
   return 0.5 * std::log(std::max(determinant, least_variance * least_variance * least_variance));
 }
 

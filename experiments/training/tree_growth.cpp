@@ -49,7 +49,8 @@ class Growth {
     Patches below;
     Patches above;
     if (!is_done)
-      for (const TrainingPatch* patch : patches) (test.is_above(patch->patch) ? above : below).push_back(patch);
+      for (const TrainingPatch* patch : patches)
+        (test.is_above(patch->patch) ? above : below).push_back(patch);
     if (std::min(below.size(), above.size()) < static_cast<std::size_t>(options_.least_patches)) {
       tree_.leaves.push_back(moments.leaf());
       return ~static_cast<int>(tree_.leaves.size() - 1);
@@ -111,7 +112,8 @@ BestThreshold best_threshold(const std::vector<float>& values, const Patches& pa
   const float step = (*greatest - *least) / static_cast<float>(options.thresholds + 1);
   if (!(step > 0)) return {};
   std::vector<float> thresholds;
-  for (int i = 1; i <= options.thresholds; ++i) thresholds.push_back(rounded(*least + static_cast<float>(i) * step));
+  for (int i = 1; i <= options.thresholds; ++i)
+    thresholds.push_back(rounded(*least + static_cast<float>(i) * step));
   // What lies between two thresholds, and then, summed up, below each.
   std::vector<PatchMoments> bins(thresholds.size() + 1);
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -132,7 +134,8 @@ BestThreshold best_threshold(const std::vector<float>& values, const Patches& pa
   return best;
 }
 
-HeadTree grow_tree(std::vector<const TrainingPatch*> patches, const GrowthOptions& options, Draw& draw) {
+HeadTree grow_tree(const std::vector<const TrainingPatch*>& patches, const GrowthOptions& options,
+                   Draw& draw) {
   Growth growth(options, draw);
   growth.grow(patches, 0);
   return growth.take();

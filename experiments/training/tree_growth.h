@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "experiments/training/draw.h"
@@ -19,12 +18,12 @@ struct TrainingPatch {
 };
 
 struct GrowthOptions {
-  int tests = 250;            ///< pairs of boxes that are tried for each question
-  int thresholds = 24;        ///< of each pair
-  int looked_at = 1200;       ///< patches, at most, by which a question is chosen
-  int least_patches = 20;     ///< in a leaf
-  int greatest_depth = 16;    ///< questions from the first to a leaf
-  double steepness = 4;       ///< questions until telling poses counts for most; before, telling heads does
+  int tests = 250;          ///< pairs of boxes that are tried for each question
+  int thresholds = 24;      ///< of each pair
+  int looked_at = 1200;     ///< patches, at most, by which a question is chosen
+  int least_patches = 20;   ///< in a leaf
+  int greatest_depth = 16;  ///< questions from the first to a leaf
+  double steepness = 4;     ///< questions until telling poses counts for most; before, telling heads does
 };
 
 /// How much a set of patches tells, in one pass over them.
@@ -70,6 +69,7 @@ BestThreshold best_threshold(const std::vector<float>& values,
                              const GrowthOptions& options);
 
 /// Grows a tree on some patches.
-HeadTree grow_tree(std::vector<const TrainingPatch*> patches, const GrowthOptions& options, Draw& draw);
+HeadTree grow_tree(const std::vector<const TrainingPatch*>& patches, const GrowthOptions& options,
+                   Draw& draw);
 
 }  // namespace pliant

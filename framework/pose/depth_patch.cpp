@@ -57,7 +57,8 @@ DepthPatch patch_around(const DepthImage& depth, const Camera& camera, const Eig
   return DepthPatch(cells);
 }
 
-DepthPatch patch_of_head(const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& camera_from_head) {
+DepthPatch patch_of_head(const std::vector<Eigen::Vector3f>& points,
+                         const Eigen::Isometry3d& camera_from_head) {
   constexpr auto scale = static_cast<float>(1 / cell_of_head);
   constexpr float reach = DepthPatch::reach;
   const Eigen::Isometry3f head_from_camera = camera_from_head.inverse().cast<float>();

@@ -19,9 +19,9 @@ struct CellBox {
   std::uint8_t bottom = 1;
 };
 
-/// Depths in a square, as the trees of a HeadForest look at them: cells, each by so many mm beyond a point in the
-/// middle. Holes, and what lies beyond it by more than a head is deep, count alike, so that the background plays
-/// no part. Kept as an integral image, so that the mean over any box costs the same.
+/// Depths in a square, as the trees of a HeadForest look at them: cells, each by so many mm beyond a point in
+/// the middle. Holes, and what lies beyond it by more than a head is deep, count alike, so that the
+/// background plays no part. Kept as an integral image, so that the mean over any box costs the same.
 class DepthPatch {
  public:
   static constexpr int cells = 32;     ///< in each direction
@@ -33,8 +33,8 @@ class DepthPatch {
 
   /// Mean depth of the cells of a box, mm; the same offset to all means of a patch is left in.
   float mean(const CellBox& box) const {
-    const std::int32_t sum = at(box.right, box.bottom) - at(box.left, box.bottom) - at(box.right, box.top) +
-                             at(box.left, box.top);
+    const std::int32_t sum =
+        at(box.right, box.bottom) - at(box.left, box.bottom) - at(box.right, box.top) + at(box.left, box.top);
     const int area = (box.right - box.left) * (box.bottom - box.top);
     return static_cast<float>(sum) / static_cast<float>(area * steps);
   }
@@ -48,11 +48,13 @@ class DepthPatch {
   std::array<std::int32_t, std::size_t{row} * row> sums_;
 };
 
-/// What a depth map (mm) shows around a point (mm, camera frame), upright in the image: 160 mm at the point's depth.
+/// What a depth map (mm) shows around a point (mm, camera frame), upright in the image: 160 mm at the point's
+/// depth.
 DepthPatch patch_around(const DepthImage& depth, const Camera& camera, const Eigen::Vector3d& point);
 
-/// What points (mm, camera frame) show of a head, seen straight from the front if it is where it is said to be:
-/// 256 mm around its centre.
-DepthPatch patch_of_head(const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& camera_from_head);
+/// What points (mm, camera frame) show of a head, seen straight from the front if it is where it is said to
+/// be: 256 mm around its centre.
+DepthPatch patch_of_head(const std::vector<Eigen::Vector3f>& points,
+                         const Eigen::Isometry3d& camera_from_head);
 
 }  // namespace pliant

@@ -23,10 +23,11 @@ struct PatchTest {
 struct HeadLeaf {
   float head_share = 0;  ///< how many of them were on a head
   // Of those on a head: mean, and the square root of the trace of the covariance.
-  /// mm, from the patch's point to the head's centre, camera frame; of a refining tree from where it was taken to
-  /// be, head's frame.
+  /// mm, from the patch's point to the head's centre, camera frame; of a refining tree from where it was
+  /// taken to be, head's frame.
   Eigen::Vector3f offset = Eigen::Vector3f::Zero();
-  /// Radians: see head_rotation; of a refining tree the rotation from what it was taken to be: axis times angle.
+  /// Radians: see head_rotation; of a refining tree the rotation from what it was taken to be: axis times
+  /// angle.
   Eigen::Vector3f angles = Eigen::Vector3f::Zero();
   float offset_spread = 0;  ///< mm
   float angle_spread = 0;   ///< radians
@@ -45,14 +46,16 @@ struct HeadTree {
   const HeadLeaf& leaf_of(const DepthPatch& patch) const;
 };
 
-/// A random regression forest that tells from patches of a depth map where a head is and where it looks, after
-/// Fanelli, Gall, Van Gool, "Real time head pose estimation with random regression forests", CVPR 2011, and
-/// Fanelli, Weise, Gall, Van Gool, "Real time head pose estimation from consumer depth cameras", DAGM 2011.
+/// A random regression forest that tells from patches of a depth map where a head is and where it looks,
+/// after Fanelli, Gall, Van Gool, "Real time head pose estimation with random regression forests", CVPR 2011,
+/// and Fanelli, Weise, Gall, Van Gool, "Real time head pose estimation from consumer depth cameras", DAGM
+/// 2011.
 ///
-/// The forest has two kinds of trees. Those of the papers vote for centre and angles; on their patches the place
-/// within the head is what tells most, and the angles come out coarsely. So others, grown in the same way, are
-/// shown the head as it would look from the front if the pose were right, and tell by how much it is not: asked
-/// again and again, they come close [after Dollar, Welinder, Perona, "Cascaded pose regression", CVPR 2010].
+/// The forest has two kinds of trees. Those of the papers vote for centre and angles; on their patches the
+/// place within the head is what tells most, and the angles come out coarsely. So others, grown in the same
+/// way, are shown the head as it would look from the front if the pose were right, and tell by how much it is
+/// not: asked again and again, they come close [after Dollar, Welinder, Perona, "Cascaded pose regression",
+/// CVPR 2010].
 struct HeadForest {
   std::vector<HeadTree> voting;    ///< of `patch_around`
   std::vector<HeadTree> refining;  ///< of `patch_of_head`

@@ -9,8 +9,8 @@
 #include "framework/io/little_endian.h"
 #include "framework/pose/head_forest.h"
 
-// magic, 8 bytes; version, length of what follows the header, its checksum, trees that vote, trees that refine,
-// each uint32; then every tree in preorder, a byte before each node saying what it is:
+// magic, 8 bytes; version, length of what follows the header, its checksum, trees that vote, trees that
+// refine, each uint32; then every tree in preorder, a byte before each node saying what it is:
 //   split          two boxes of four uint8, threshold int16 (1/32 mm); what is below, what is above
 //   leaf of heads  share uint8 (1/255), offset 3 int16 (1/32 mm), angles 3 int16 (1e-4 rad), spreads 2 uint16
 //   other leaf     nothing
@@ -97,15 +97,17 @@ class Reader {
     at_ = magic.size();
     const std::uint32_t its_version = number();
     if (its_version != version)
-      fail(fmt::format("the head forest is of version {}; expected {}: train it anew by 'pliant train head_forest'",
-                       its_version, version));
+      fail(fmt::format(
+          "the head forest is of version {}; expected {}: train it anew by 'pliant train head_forest'",
+          its_version, version));
     const std::uint32_t size = number();
     const std::uint32_t sum = number();
     const std::size_t there = bytes_.size() - at_;
     if (there != size)
       fail(fmt::format("the head forest is {}: it has {} bytes; expected {}",
                        there < size ? "truncated" : "followed by something else", bytes_.size(), at_ + size));
-    if (checksum(bytes_.data() + at_, there) != sum) fail("the head forest is damaged: its checksum is wrong");
+    if (checksum(bytes_.data() + at_, there) != sum)
+      fail("the head forest is damaged: its checksum is wrong");
   }
 
   /// Its index, or ~index of a leaf.
@@ -113,7 +115,8 @@ class Reader {
     if (depth > deepest) fail(fmt::format("a tree is deeper than {} questions", deepest));
     const std::uint8_t kind = byte();
     if (kind == static_cast<std::uint8_t>(Kind::split)) return read_split(tree, depth);
-    if (kind > static_cast<std::uint8_t>(Kind::split)) fail(fmt::format("a node is of the unknown kind {}", kind));
+    if (kind > static_cast<std::uint8_t>(Kind::split))
+      fail(fmt::format("a node is of the unknown kind {}", kind));
     tree.leaves.push_back(kind == static_cast<std::uint8_t>(Kind::head) ? read_leaf() : HeadLeaf{});
     return ~static_cast<int>(tree.leaves.size() - 1);
   }

@@ -10,12 +10,13 @@
 namespace pliant {
 namespace {
 
-constexpr double bandwidth = 20;     // mm, of mean shift
-constexpr double agreeing = 40;      // mm from the centre
-constexpr double cell = 60;          // mm, of the grid in which the search begins
+constexpr double bandwidth = 20;      // mm, of mean shift
+constexpr double agreeing = 40;       // mm from the centre
+constexpr double cell = 60;           // mm, of the grid in which the search begins
 constexpr float least_angle = 0.02F;  // radians: no vote is surer of its angles
-constexpr int refinements = 8;
-constexpr double head_area = 22000;  // mm^2 that a camera sees of a head, about
+constexpr int approaching = 10;       // refinements that lead to a pose, and then
+constexpr int averaged = 8;           // so many whose mean is taken
+constexpr double head_area = 22000;   // mm^2 that a camera sees of a head, about
 
 struct Vote {
   Eigen::Vector3d centre;  // mm, camera frame
@@ -87,14 +88,6 @@ Eigen::Vector3d mode_of(const std::vector<Vote>& votes) {
   return centre;
 }
 
-/// The rotation nearest to a sum of some.
-Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& sum) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d u = svd.matrixU();
-  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
-  return u * svd.matrixV().transpose();
-}
-
 /// What votes agree upon.
 Eigen::Isometry3d mean_pose(const std::vector<const Vote*>& votes, const Eigen::Vector3d& centre) {
   Eigen::Matrix3d rotations = Eigen::Matrix3d::Zero();
@@ -108,21 +101,75 @@ Eigen::Isometry3d mean_pose(const std::vector<const Vote*>& votes, const Eigen::
   return camera_from_head;
 }
 
+/// A pose, and how unsure trees are that were asked about it.
+struct Refined {
+  Eigen::Isometry3d camera_from_head = Eigen::Isometry3d::Identity();
+  double spread = 0;  // radians, the mean over the trees
+};
+
 /// Nearer to the head's pose than one that is nearly right.
-Eigen::Isometry3d refined(const std::vector<HeadTree>& trees, const std::vector<Eigen::Vector3f>& points,
-                          const Eigen::Isometry3d& camera_from_head) {
+Refined refined_once(const std::vector<HeadTree>& trees, const std::vector<Eigen::Vector3f>& points,
+                     const Eigen::Isometry3d& camera_from_head) {
   const DepthPatch patch = patch_of_head(points, camera_from_head);
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  double spread = 0;
   for (const HeadTree& tree : trees) {
     const HeadLeaf& leaf = tree.leaf_of(patch);
-    offset += leaf.offset.cast<double>() / static_cast<double>(trees.size());
-    turn += leaf.angles.cast<double>() / static_cast<double>(trees.size());
+    offset += leaf.offset.cast<double>();
+    turn += leaf.angles.cast<double>();
+    spread += leaf.angle_spread;
   }
-  return camera_from_head * moved(offset, turn);
+  const double share = 1 / static_cast<double>(trees.size());
+  return {camera_from_head * moved(share * offset, share * turn), share * spread};
+}
+
+/// Where that ends, again and again. It does not end in a point: the mean of the later poses is closer.
+Refined refined(const std::vector<HeadTree>& trees, const std::vector<Eigen::Vector3f>& points,
+                const Eigen::Isometry3d& start) {
+  Refined now{start};
+  Eigen::Vector3d places = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotations = Eigen::Matrix3d::Zero();
+  double spreads = 0;
+  for (int i = 0; i < approaching + averaged; ++i) {
+    now = refined_once(trees, points, now.camera_from_head);
+    if (i < approaching) continue;
+    places += now.camera_from_head.translation() / averaged;
+    rotations += now.camera_from_head.linear();
+    spreads += now.spread / averaged;
+  }
+  Refined mean;
+  mean.camera_from_head.linear() = nearest_rotation(rotations);
+  mean.camera_from_head.translation() = places;
+  mean.spread = spreads;
+  return mean;
+}
+
+/// From where the votes are, and from beside: of all that is reached, what the trees are surest of.
+Eigen::Isometry3d best_refined(const std::vector<HeadTree>& trees, const std::vector<Eigen::Vector3f>& points,
+                               const Eigen::Isometry3d& start) {
+  constexpr double yaw = 0.7;  // radians
+  constexpr double pitch = 0.45;
+  Refined best;
+  bool is_first = true;
+  for (const Eigen::Vector3d& turn :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, yaw, 0), Eigen::Vector3d(0, -yaw, 0),
+        Eigen::Vector3d(pitch, 0, 0), Eigen::Vector3d(-pitch, 0, 0)}) {
+    const Refined found = refined(trees, points, start * moved(Eigen::Vector3d::Zero(), turn));
+    if (is_first || found.spread < best.spread) best = found;
+    is_first = false;
+  }
+  return best.camera_from_head;
 }
 
 }  // namespace
+
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& sum) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d u = svd.matrixU();
+  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
+  return u * svd.matrixV().transpose();
+}
 
 std::vector<Eigen::Vector3f> points_near(const DepthImage& depth, const Camera& camera,
                                          const Eigen::Vector3d& centre) {
@@ -159,9 +206,7 @@ std::optional<HeadEstimate> find_head(const HeadForest& forest, const DepthImage
   estimate.confidence = std::min(static_cast<double>(agree.size()) / possible, 1.0);
   if (estimate.confidence < options.least_confidence) return std::nullopt;
   const std::vector<Eigen::Vector3f> points = points_near(depth, camera, centre);
-  estimate.camera_from_head = mean_pose(agree, centre);
-  for (int i = 0; i < refinements; ++i)
-    estimate.camera_from_head = refined(forest.refining, points, estimate.camera_from_head);
+  estimate.camera_from_head = best_refined(forest.refining, points, mean_pose(agree, centre));
   return estimate;
 }
 
