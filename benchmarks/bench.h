@@ -39,5 +39,6 @@ int run_render_mode(const Options& options);
 int run_pose_mode(const Options& options);
 int run_tracking_mode(const Options& options);
 int run_relocalisation_mode(const Options& options);
+int run_head_forest_mode(const Options& options);
 
 }  // namespace pliant::bench

@@ -42,6 +42,9 @@ int main(int argument_count, char** arguments) {
       "tracking", "Stages of a tracked frame beside OpenCV's; ratio_to_opencv: our time over OpenCV's");
   const auto* relocalisation = add_mode(
       "relocalisation", "A head that leaps by 100 mm and 30 degrees: how often each relocalizer finds it");
+  auto* head_forest =
+      add_mode("head_forest", "Errors of the forest that finds heads, on heads it was not trained on");
+  head_forest->add_option("--data", options.data, "Folder in which data is looked for first");
   CLI11_PARSE(app, argument_count, arguments);
   try {
     if (solver->parsed()) return pliant::bench::run_solver_mode(options);
@@ -51,6 +54,7 @@ int main(int argument_count, char** arguments) {
     if (pose->parsed()) return pliant::bench::run_pose_mode(options);
     if (tracking->parsed()) return pliant::bench::run_tracking_mode(options);
     if (relocalisation->parsed()) return pliant::bench::run_relocalisation_mode(options);
+    if (head_forest->parsed()) return pliant::bench::run_head_forest_mode(options);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 1;

@@ -1,5 +1,14 @@
-# Writes the text of INPUT as a C++ string constant into OUTPUT (see pliant_embed).
-file(READ "${INPUT}" TEXT)
+# Writes the text of INPUT, or the bytes of one that is no text, as a C++ string constant into OUTPUT (see pliant_embed).
+if(INPUT MATCHES "[.]forest$")
+  file(READ "${INPUT}" TEXT HEX)
+  string(REGEX REPLACE "(..)" "\\\\x\\1" TEXT "${TEXT}")
+  set(BEGIN "\"")
+  set(END "\"")
+else()
+  file(READ "${INPUT}" TEXT)
+  set(BEGIN "R\"PLIANT(")
+  set(END ")PLIANT\"")
+endif()
 string(REGEX REPLACE "[^A-Za-z0-9]" "_" SYMBOL "${RELATIVE}")
 # A raw literal may not exceed 64 KiB in some compilers; adjacent literals join, so split the text.
 string(LENGTH "${TEXT}" LENGTH)
@@ -7,7 +16,7 @@ set(PIECES "")
 set(START 0)
 while(START LESS LENGTH)
   string(SUBSTRING "${TEXT}" ${START} 8000 PIECE)
-  string(APPEND PIECES "R\"PLIANT(${PIECE})PLIANT\"\n")
+  string(APPEND PIECES "${BEGIN}${PIECE}${END}\n")
   math(EXPR START "${START} + 8000")
 endwhile()
 file(WRITE "${OUTPUT}" "// Made from ${RELATIVE}; do not edit.

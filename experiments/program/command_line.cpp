@@ -13,6 +13,7 @@
 #include "experiments/program/make_data.h"
 #include "experiments/program/output.h"
 #include "experiments/program/reproduce.h"
+#include "experiments/program/train.h"
 #include "experiments/program/view.h"
 #include "experiments/runner/version.h"
 #include "framework/core/error.h"
@@ -112,6 +113,15 @@ Writes depth (16-bit PNG), colour (PNG), the camera and, where the source knows 
 first frame to each other one: scene flow, optical flow and what is visible.
 )";
 
+constexpr const char* train_examples = R"(
+Examples:
+  pliant train head_forest --out my.forest
+  pliant train experiments/train_head_forest.yaml --set heads=40 --set seed=2 --out my.forest
+
+A forest finds heads in depth maps, for relocalizer: {type: head_forest, file: my.forest}. The same settings give
+the same bytes.
+)";
+
 constexpr const char* reproduce_examples = R"(
 Example:
   pliant reproduce --quick --out out/quick --data ~/data
@@ -134,12 +144,17 @@ struct Arguments {
   bool open = false;
 };
 
-void add_set_and_data(CLI::App& command, ExperimentOptions& options, const std::string& label = "FILE.yaml",
-                      const std::string& what = "The experiment") {
+void add_set(CLI::App& command, ExperimentOptions& options, const std::string& label,
+             const std::string& what) {
   command.add_option(label, options.file, what)->required();
   command.add_option("--set", options.sets, "Lays one value over the file, e.g. data.noise=1; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_set_and_data(CLI::App& command, ExperimentOptions& options, const std::string& label = "FILE.yaml",
+                      const std::string& what = "The experiment") {
+  add_set(command, options, label, what);
   command
       .add_option("--data", options.data, "Folder in which files that the experiment names are looked for")
       ->type_name("DIR");
@@ -205,6 +220,13 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   components->add_option("NAME", arguments.name, "Only this component, with its parameters");
   components->add_flag("--json", arguments.json, "A JSON Schema of experiment files, for editors");
   components->callback([&] { components_command(arguments.kind, arguments.name, arguments.json); });
+
+  auto* train = add_command(app, "train", "Trains the forest that finds heads, on heads that it renders",
+                            train_examples);
+  add_set(*train, experiment, "head_forest|FILE.yaml", "With the usual settings, or with those of a file");
+  train->add_option("--out", experiment.out, "The file to be written; head_forest.forest by default")
+      ->type_name("FILE");
+  train->callback([&] { train_command(experiment); });
 
   auto* view = add_command(app, "view", "The page of a result, made if it has none", view_examples);
   view->add_option("RESULT_DIR", arguments.result, "The folder of a result, or of one of its runs")

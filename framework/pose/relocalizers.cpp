@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "framework/pose/features_relocalizer.h"
+#include "framework/pose/head_relocalizer.h"
 #include "framework/pose/relocalizer.h"
 
 namespace pliant {
@@ -18,6 +19,7 @@ void register_relocalizers(Registry& registry) {
       "none", "What is lost is found again only near to its last pose", {},
       [](const Parameters&, const Registry&) { return std::make_unique<NoRelocalizer>(); });
   register_features_relocalizer(registry);
+  register_head_relocalizer(registry);
 }
 
 }  // namespace pliant

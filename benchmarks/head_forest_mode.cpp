@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "benchmarks/bench.h"
+#include "experiments/program/folders.h"
+#include "experiments/training/head_trial.h"
+#include "framework/io/gltf.h"
+#include "framework/pose/head_relocalizer.h"
+
+namespace pliant::bench {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Training draws its heads and views from streams below.
+constexpr std::uint64_t unseen = 20261126;
+
+ordered_json row_of(const std::string& name, const HeadTrial& trial) {
+  ordered_json row{{"name", name}, {"views", trial.views}, {"found", trial.found}};
+  const auto add = [&](const std::string& what, const std::vector<double>& values) {
+    const MeanAndMost summary = mean_and_most(values);
+    row[what] = {{"mean", summary.mean}, {"most", summary.most}};
+  };
+  add("position_mm", trial.position);
+  for (const auto& [what, axis] : {std::pair{"yaw_degree", 0}, {"pitch_degree", 1}, {"roll_degree", 2}}) {
+    std::vector<double> values;
+    for (const Eigen::Vector3d& angles : trial.angles) values.push_back(angles[axis]);
+    add(what, values);
+  }
+  add("rotation_degree", trial.rotation);
+  const double total = std::accumulate(trial.milliseconds.begin(), trial.milliseconds.end(), 0.0);
+  row["per_second"] = 1000 * trial.views / total;
+  row["least_ms"] = *std::min_element(trial.milliseconds.begin(), trial.milliseconds.end());
+  return row;
+}
+
+void print_row(const ordered_json& row) {
+  fmt::print("{:<34} {} of {} found; mean (95 % below):", row["name"].get<std::string>(),
+             row["found"].get<int>(), row["views"].get<int>());
+  for (const char* what : {"position_mm", "yaw_degree", "pitch_degree", "roll_degree", "rotation_degree"})
+    fmt::print(" {} {:.2f} ({:.2f})", what, row[what]["mean"].get<double>(), row[what]["most"].get<double>());
+  fmt::print("; {:.0f} a second\n", row["per_second"].get<double>());
+}
+
+/// Heads of a file, their middle about where that of our heads is.
+Figure figure_of(const std::string& file) {
+  Figure figure{read_gltf(file), {}};
+  Eigen::AlignedBox3f box;
+  for (const auto& vertex : figure.mesh.vertices) box.extend(vertex);
+  const Eigen::Vector3f middle(box.center().x(), box.min().y() + 160, box.max().z() - 105);
+  for (auto& vertex : figure.mesh.vertices) vertex -= middle;
+  return figure;
+}
+
+}  // namespace
+
+int run_head_forest_mode(const Options& options) {
+  const HeadForest forest = own_head_forest();
+  const HeadSearchOptions search;
+  const int views = options.quick ? 40 : 300;
+  HeadViewOptions alone;
+  alone.variety = 0;
+  alone.company = 0;
+  auto rows = ordered_json::array();
+  const auto measure = [&](const std::string& name, const std::vector<Figure>& heads,
+                           const HeadViewOptions& view, bool is_foreign) {
+    if (name.find(options.only) == std::string::npos) return;
+    rows.push_back(
+        row_of(name, try_head_forest(forest, search, HeadViews(heads, view), views, unseen + 1, is_foreign)));
+    print_row(rows.back());
+  };
+  const std::vector<Figure> heads = random_heads(options.quick ? 2 : 10, unseen, 0);
+  HeadViewOptions exact = alone;
+  exact.noise = 0;
+  measure("unseen heads, exact", heads, exact, false);
+  measure("unseen heads, Kinect", heads, alone, false);
+  measure("varied, shoulders, clutter", heads, HeadViewOptions(), false);
+  if (const auto scanned = find_data(data_folders(options.data), "ict_face/ict_face.glb"))
+    measure("ict_face without its mean offset", {figure_of(scanned->string())}, alone, true);
+  write_json(options, rows);
+  return 0;
+}
+
+}  // namespace pliant::bench
