@@ -7,13 +7,13 @@ namespace {
 
 class RigidOnly : public Policy {
  public:
-  bool registers(const TrackingError&, int) const override { return false; }
+  bool registers(const PolicyInput&) const override { return false; }
 };
 
 class EveryN : public Policy {
  public:
   explicit EveryN(int n) : n_(n) {}
-  bool registers(const TrackingError&, int frame) const override { return frame % n_ == 0; }
+  bool registers(const PolicyInput& input) const override { return input.frame % n_ == 0; }
 
  private:
   int n_;
@@ -21,11 +21,21 @@ class EveryN : public Policy {
 
 class Adaptive : public Policy {
  public:
-  explicit Adaptive(double threshold) : threshold_(threshold) {}
-  bool registers(const TrackingError& rigid, int) const override { return rigid.mean > threshold_; }
+  Adaptive(double threshold, int patience, double growth)
+      : threshold_(threshold), patience_(patience), growth_(growth) {}
+
+  bool registers(const PolicyInput& input) const override {
+    const double error = input.rigid.mean;
+    if (!(error > threshold_)) return false;
+    const auto& rejection = input.rejection;
+    return !rejection || input.frame - rejection->frame > patience_ ||
+           error > (1 + growth_) * rejection->error;
+  }
 
  private:
   double threshold_;
+  int patience_;
+  double growth_;
 };
 
 }  // namespace
@@ -40,12 +50,18 @@ void register_policies(Registry& registry) {
                        });
   registry.add<Policy>(
       "adaptive", "Where rigid tracking fails, the sign of a deformation (NRAdaptive of the thesis)",
-      {real("threshold", 2)
+      {real("threshold", 0.4)
            .unit("mm")
            .at_least(0)
-           .doc("A greater mean error of rigid tracking is a failure; 0: every frame is one")},
+           .doc("A greater mean error of rigid tracking is a failure; 0: every frame is one"),
+       integer("patience", 5)
+           .unit("frame")
+           .range(0, 1e6)
+           .doc("After a registration that gained nothing it is not tried again for so many"),
+       real("growth", 0.1).at_least(0).doc("unless the error has grown by this share since")},
       [](const Parameters& section, const Registry&) {
-        return std::make_unique<Adaptive>(section.real("threshold"));
+        return std::make_unique<Adaptive>(
+            section.real("threshold"), static_cast<int>(section.integer("patience")), section.real("growth"));
       });
 }
 

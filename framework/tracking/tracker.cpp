@@ -135,11 +135,13 @@ void Tracker::register_model(FrameRecord& record) {
     moved_view_.map = no_points(device_, model_view_->window.size());
   move_points(device_, model_view_->map, record.pose.target_from_source, moved_view_.map);
   record.rigid_error = record.error = meter_.measure(moved_view_, seen());
-  if (!method_.policy->registers(record.rigid_error, count_)) return;
+  if (!method_.policy->registers({count_, record.rigid_error, rejection_})) return;
   const Stopwatch watch;
   const SurfaceMap& view = model_->view(rig_.depth, seen().window, camera_from_model_);
   camera_from_model_ = ModelRegistration(device_, method_.deformation, method_.error.min_gain)
                            .run(*model_, view, seen(), camera_from_model_, meter_, record);
+  rejection_.reset();
+  if (is_rejected(record)) rejection_ = {count_, record.rigid_error.mean};
   record.time_ms["registration"] = watch.milliseconds();
 }
 

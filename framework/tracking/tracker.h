@@ -75,6 +75,7 @@ class Tracker {
   std::optional<FollowedWindow> window_;      // of a region without a mask, with a relocalizer
   double usual_share_ = 0.8;                  // of the model's points that are matched: in the last frame
   TrackingErrorMeter meter_;
+  std::optional<PolicyInput::Rejection> rejection_;  // if the last registration was
   std::unique_ptr<DeformingModel> model_;
   const SurfaceMap* model_view_ = nullptr;
   SurfaceMap moved_view_;     // to the pose of the frame
