@@ -138,7 +138,7 @@ class WarpFieldUpdate : public ModelUpdate {
     if (tsdf == nullptr)
       throw ConfigError(
           fmt::format("{}: warp_field: the model must be a tsdf, whose voxels it moves", place_));
-    model.release();
+    static_cast<void>(model.release());
     return std::make_unique<WarpField>(device, std::unique_ptr<Tsdf>(tsdf), node_spacing_);
   }
 
