@@ -58,7 +58,7 @@ void register_policies(Registry& registry) {
            .unit("frame")
            .range(0, 1e6)
            .doc("After a registration that gained nothing it is not tried again for so many"),
-       real("growth", 0.1).at_least(0).doc("unless the error has grown by this share since")},
+       real("growth", 0.25).at_least(0).doc("unless the error has grown by this share since")},
       [](const Parameters& section, const Registry&) {
         return std::make_unique<Adaptive>(
             section.real("threshold"), static_cast<int>(section.integer("patience")), section.real("growth"));
