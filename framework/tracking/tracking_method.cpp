@@ -45,13 +45,14 @@ std::vector<Parameter> tracking_rows() {
 }
 
 TrackingMethod make_tracking_method(const Parameters& experiment, const Registry& registry) {
+  const bool deforms = experiment.has("policy");
   return {make_acquisition(experiment.section("acquisition"), registry),
           registry.make<Segmentation>(experiment.section("segmentation")),
           registry.make<PoseEstimatorKind>(experiment.section("pose")),
           registry.make<ModelKind>(experiment.section("model")),
           registry.make<RelocalizerKind>(experiment.section("relocalizer")),
-          experiment.has("policy") ? registry.make<Policy>(experiment.section("policy")) : nullptr,
-          make_nonrigid_method(experiment, registry),
+          deforms ? registry.make<Policy>(experiment.section("policy")) : nullptr,
+          deforms ? make_nonrigid_method(experiment, registry) : NonRigidMethod(),
           registry.make<ModelUpdate>(experiment.section("update")),
           read_tracking_error(experiment.section("tracking_error")),
           make_followed(experiment.section("followed"))};

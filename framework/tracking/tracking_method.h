@@ -37,7 +37,8 @@ struct TrackingMethod {
   FollowedPoints followed;
 };
 
-/// The rows of an experiment file that describe it. An experiment tracks where it has a `model`.
+/// The rows of an experiment file that describe it; with a `policy` those of nonrigid_rows() do, too. An
+/// experiment tracks where it has a `model`.
 std::vector<Parameter> tracking_rows();
 
 /// Assembles what an experiment with a model describes.
