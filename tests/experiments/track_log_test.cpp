@@ -39,7 +39,7 @@ class TrackLogTest : public TestFiles {
     if (child == 0) {
       TrackLog log(file(""));
       for (int number = 1;; ++number) {
-        log.add(tracked(number), PoseError{0.5, 0.25});
+        log.add(tracked(number), PoseError{0.5, 0.25}, {});
         if (::write(ends[1], &number, sizeof number) != sizeof number) ::_exit(1);
       }
     }
@@ -84,8 +84,8 @@ TEST_F(TrackLogTest, IsReadAsNumbersOfFramesThatWereTracked) {
     TrackLog log(file(""));
     FrameRecord lost = tracked(1);
     lost.state = FrameState::lost;
-    log.add(lost, {});
-    log.add(tracked(2), PoseError{0.5, 0.25});
+    log.add(lost, {}, {});
+    log.add(tracked(2), PoseError{0.5, 0.25}, {});
   }
   const auto frames = read_run_frames(file(""));
   ASSERT_EQ(frames.size(), 2U);

@@ -130,12 +130,13 @@ TEST_F(ReproduceTest, GoesOnWhereItWasKilled) {
 
 TEST_F(ReproduceTest, ATrackedRunThatIsKilledIsMadeAnewAndFinishedOnesAreTaken) {
   add("chapter6/tracked.yaml", tracked + "runs: {one: , two: {data: {frames: 100000}}, three: }\n");
-  write("kill.sh",
-        "prefix/bin/pliant reproduce chapter6 --out rep >killed.out 2>&1 &\n"
-        "until [ -s rep/unfinished/tracked/two/frames.jsonl ] || ! kill -0 $!; do sleep 0.02; done\n"
-        "kill -KILL $!\n");
+  write(
+      "kill.sh",
+      "prefix/bin/pliant reproduce chapter6 --out rep >killed.out 2>&1 &\n"
+      "until [ -s rep/unfinished/tracked/unfinished/two/frames.jsonl ] || ! kill -0 $!; do sleep 0.02; done\n"
+      "kill -KILL $!\n");
   ASSERT_EQ(std::system(("cd '" + file("") + "' && sh kill.sh").c_str()), 0) << text_of("killed.out");
-  const std::string finished = text_of("rep/unfinished/tracked/one/frames.jsonl");
+  const std::string finished = text_of("rep/unfinished/tracked/unfinished/one/frames.jsonl");
   EXPECT_EQ(std::count(finished.begin(), finished.end(), '\n'), 8);
   add("chapter6/tracked.yaml", tracked + "runs: {one: , two: , three: }\n");
   const ProgramRun run = call("reproduce chapter6 --out rep");
