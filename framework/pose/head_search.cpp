@@ -16,7 +16,10 @@ constexpr double cell = 60;           // mm, of the grid in which the search beg
 constexpr float least_angle = 0.02F;  // radians: no vote is surer of its angles
 constexpr int approaching = 10;       // refinements that lead to a pose, and then
 constexpr int averaged = 8;           // so many whose mean is taken
-constexpr double head_area = 22000;   // mm^2 that a camera sees of a head, about
+// Radians: how unsure the trees that refine are of the angles of 9 heads in 10, and of nearly all else.
+constexpr double surely_head = 0.1;
+constexpr double no_head = 0.25;
+constexpr double head_area = 22000;  // mm^2 that a camera sees of a head, about
 
 struct Vote {
   Eigen::Vector3d centre;  // mm, camera frame
@@ -146,8 +149,8 @@ Refined refined(const std::vector<HeadTree>& trees, const std::vector<Eigen::Vec
 }
 
 /// From where the votes are, and from beside: of all that is reached, what the trees are surest of.
-Eigen::Isometry3d best_refined(const std::vector<HeadTree>& trees, const std::vector<Eigen::Vector3f>& points,
-                               const Eigen::Isometry3d& start) {
+Refined best_refined(const std::vector<HeadTree>& trees, const std::vector<Eigen::Vector3f>& points,
+                     const Eigen::Isometry3d& start) {
   constexpr double yaw = 0.7;  // radians
   constexpr double pitch = 0.45;
   Refined best;
@@ -159,7 +162,7 @@ Eigen::Isometry3d best_refined(const std::vector<HeadTree>& trees, const std::ve
     if (is_first || found.spread < best.spread) best = found;
     is_first = false;
   }
-  return best.camera_from_head;
+  return best;
 }
 
 }  // namespace
@@ -202,11 +205,13 @@ std::optional<HeadEstimate> find_head(const HeadForest& forest, const DepthImage
   const double patches =
       head_area * camera.fx * camera.fy / (centre.z() * centre.z()) / (options.stride * options.stride);
   const double possible = patches * static_cast<double>(forest.voting.size());
-  HeadEstimate estimate;
-  estimate.confidence = std::min(static_cast<double>(agree.size()) / possible, 1.0);
+  const double agreement = std::min(static_cast<double>(agree.size()) / possible, 1.0);
+  if (agreement < options.least_confidence) return std::nullopt;
+  const Refined pose =
+      best_refined(forest.refining, points_near(depth, camera, centre), mean_pose(agree, centre));
+  const double certainty = std::clamp((no_head - pose.spread) / (no_head - surely_head), 0.0, 1.0);
+  const HeadEstimate estimate{pose.camera_from_head, agreement * certainty};
   if (estimate.confidence < options.least_confidence) return std::nullopt;
-  const std::vector<Eigen::Vector3f> points = points_near(depth, camera, centre);
-  estimate.camera_from_head = best_refined(forest.refining, points, mean_pose(agree, centre));
   return estimate;
 }
 

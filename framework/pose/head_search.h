@@ -15,14 +15,15 @@ struct HeadSearchOptions {
   int stride = 4;               ///< pixels from one patch to the next
   double least_share = 0.7;     ///< of a leaf's patches that were on a head, for it to vote
   double greatest_spread = 45;  ///< mm of the centre, for a leaf to vote
-  double least_confidence = 0.2;
+  double least_confidence = 0.3;
 };
 
 /// A head in a depth map.
 struct HeadEstimate {
   Eigen::Isometry3d camera_from_head =
       Eigen::Isometry3d::Identity();  ///< mm; the head's frame and centre are those of HeadForest
-  /// The votes that agree, as a share of those that a whole head at its distance could cast, at most 1.
+  /// The votes that agree, as a share of those that a whole head at its distance could cast, times how sure
+  /// the trees are that have seen it whole; 0 to 1.
   double confidence = 0;
 };
 
