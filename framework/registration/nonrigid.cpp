@@ -55,7 +55,8 @@ class Loop {
         graph_(make_graph()),
         matched_(constrain()),
         moved_{followed().points.clone(), followed().normals.clone()},
-        meter_(device, *method.correspondence, moved_.points.size() / 3, method.stopping.cut) {
+        meter_(device, *method.correspondence, std::min(moved_.points.size() / 3, input.pixels.count),
+               method.stopping.cut) {
     if (input.graph) start_from(input.graph->affine);
     meter_.measure(moved_, input_.target);
     match_and_make_problem();
@@ -299,10 +300,18 @@ class Loop {
     return points;
   }
 
+  /// The nodes of a graph that was given are behind the points and have no match.
   std::vector<std::uint8_t> find_matched(const PointSet& registered) const {
+    std::vector<std::uint8_t> found = find_matched_pixels(registered);
+    found.resize(registered.points.size() / 3);
+    return found;
+  }
+
+  std::vector<std::uint8_t> find_matched_pixels(const PointSet& registered) const {
     if (is_returned_shown_ && method_.correspondence->measures_matches())
       return flags(meter_.per_point(), [](float residual) { return residual >= 0; });
     Constraints constraints = unmatched_at(input_.rest.points.clone());
+    constraints.confidence = Array<float>(input_.pixels.count);
     method_.correspondence->match(device_, registered, first_indices(input_.pixels.count), input_.target,
                                   constraints);
     return flags(constraints.confidence, [](float confidence) { return confidence > 0; });

@@ -256,6 +256,7 @@ Residual expect_agreement(Device& device, const ProjectiveCorrespondence& projec
   EXPECT_EQ(measured.lost, expected.lost);
   EXPECT_NEAR(measured.mean, expected.mean, 1e-4 * expected.mean);
   EXPECT_NEAR(measured.robust, expected.robust, 1e-4 * expected.robust);
+  EXPECT_NEAR(measured.deviation, expected.deviation, 1e-3 * expected.deviation);
   for (std::size_t i = 0; i < per_point.size(); ++i)
     EXPECT_NEAR(meter.per_point().host()[i], per_point[i], 1e-3) << "point " << i;
   return measured;
@@ -420,7 +421,8 @@ TEST(ResidualMeter, IsZeroWhereNothingLands) {
   const SurfaceMap target = make_target(random);
   const ProjectiveCorrespondence projective(limits(1000, 1));
   ResidualMeter meter(device, projective, 1, cut);
-  meter.measure({Array<float>(std::vector<float>{0, 0, -10}), Array<float>(std::vector<float>{0, 0, 0})});
+  meter.measure({Array<float>(std::vector<float>{0, 0, -10}), Array<float>(std::vector<float>{0, 0, 0})},
+                target);
   const Residual residual = meter.read();
   EXPECT_EQ(residual.landed, 0);
   EXPECT_EQ(residual.mean, 0);
