@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::array<std::uint8_t, 8> magic{'P', 'L', 'N', 'T', 'H', 'E', 'A', 'D'};
 constexpr std::uint32_t version = 1;
-constexpr std::size_t header_size = magic.size() + 4 * sizeof(std::uint32_t);
 constexpr float length_step = 1 / 32.0F;  // mm
 constexpr float angle_step = 1e-4F;       // radians
 constexpr int deepest = 64;               // a tree that is deeper is none that was trained
