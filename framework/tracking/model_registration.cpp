@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -89,9 +90,11 @@ Eigen::Isometry3d fitted_motion(const Eigen::Matrix3Xd& from, const Eigen::Matri
 
 }  // namespace
 
+/// Weights of Geman and McClure's loss fall from those of least squares to those that leave out what deforms.
 Eigen::Isometry3d common_motion(const EmbeddedGraph& graph, const Array<float>& affine) {
-  constexpr int iterations = 10;
-  constexpr double least_distance = 0.1;  // mm: what is nearer counts as being there
+  constexpr int iterations = 12;
+  constexpr double narrowing = 0.6;  // of the loss, from one to the next
+  constexpr double least_scale = 1;  // mm
   const auto count = static_cast<Eigen::Index>(graph.positions.size());
   Eigen::Matrix3Xd from(3, count);
   Eigen::Matrix3Xd to(3, count);
@@ -100,12 +103,16 @@ Eigen::Isometry3d common_motion(const EmbeddedGraph& graph, const Array<float>& 
     to.col(j) = from.col(j) +
                 Eigen::Map<const Eigen::Vector3f>(affine.host().data() + affine_size * j + 9).cast<double>();
   }
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(count);
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  const auto distances_of = [&](const Eigen::Isometry3d& motion) -> Eigen::ArrayXd {
+    return ((motion.linear() * from).colwise() + motion.translation() - to).colwise().norm().transpose();
+  };
+  Eigen::Isometry3d motion = fitted_motion(from, to, Eigen::VectorXd::Ones(count));
+  Eigen::ArrayXd distances = distances_of(motion);
+  double scale = distances.maxCoeff();
   for (int iteration = 0; iteration < iterations; ++iteration) {
-    motion = fitted_motion(from, to, weights);
-    const Eigen::Matrix3Xd moved = (motion.linear() * from).colwise() + motion.translation();
-    weights = (moved - to).colwise().norm().transpose().cwiseMax(least_distance).cwiseInverse();
+    scale = std::max(least_scale, narrowing * scale);
+    motion = fitted_motion(from, to, (1 + (distances / scale).square()).square().inverse());
+    distances = distances_of(motion);
   }
   return motion;
 }

@@ -31,9 +31,10 @@ class ModelRegistration {
   double min_gain_;
 };
 
-/// The rigid motion (mm) that the nodes of a graph have in common: of least absolute distance from where
-/// `affine` (affine_size numbers each) moves them, so that those which deform do not count for more than
-/// their number.
+/// The rigid motion (mm) that most nodes of a graph have in common, of where `affine` (affine_size numbers
+/// each) moves them: a least-squares fit from which those that deform are left out little by little, by
+/// graduated non-convexity [Blake and Zisserman 1987]. The least absolute distance would not do: where all
+/// that deforms lies to one side, as a jaw does, that tilts.
 Eigen::Isometry3d common_motion(const EmbeddedGraph& graph, const Array<float>& affine);
 
 }  // namespace pliant
