@@ -15,9 +15,10 @@ void History::add(const Residual& residual, const std::shared_ptr<const Embedded
   };
   const bool is_best_of_all = is_better_than(best_of_all_);
   const bool is_best = (iteration == 0 || is_after_schedule(iteration)) && is_better_than(best_);
-  last_ = std::make_shared<const State>(State{iteration, graph, unknowns.clone()});
-  if (is_best_of_all) best_of_all_ = last_;
-  if (is_best) best_ = last_;
+  if (!is_best && !is_best_of_all) return;
+  const auto here = std::make_shared<const State>(State{iteration, graph, unknowns.clone()});
+  if (is_best_of_all) best_of_all_ = here;
+  if (is_best) best_ = here;
 }
 
 bool History::is_stuck() const {

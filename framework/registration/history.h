@@ -39,8 +39,6 @@ class History {
   /// Settles what is best: nothing comes after this.
   void close();
   const State& best() const { return *best_; }
-  /// Where the last iteration led that was measured.
-  const State& last_state() const { return *last_; }
   std::vector<Step> take_steps() { return std::move(steps_); }
 
  private:
@@ -51,7 +49,6 @@ class History {
   const StoppingRule& rule_;
   const Schedule& schedule_;
   std::vector<Step> steps_;
-  std::shared_ptr<const State> last_;
   std::shared_ptr<const State> best_;         ///< of the alignment and the iterations after the schedule
   std::shared_ptr<const State> best_of_all_;  ///< of these and those of the schedule
 };

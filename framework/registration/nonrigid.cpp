@@ -397,7 +397,10 @@ NonRigidResult Loop::take_result() {
 }
 
 Deformation Loop::take_deformation() {
-  const History::State& last = history_.last_state();
+  // What failed after the last measurement is no place to be.
+  const History::State last = shown_ ? History::State{*shown_, graph_, problem_->unknowns().clone()}
+                                     : History::State{history_.best().iteration, history_.best().graph,
+                                                      history_.best().unknowns.clone()};
   return {last.graph,
           last.unknowns.clone(),
           deformed_to(last),
