@@ -84,7 +84,7 @@ class DeformTest : public ExperimentFiles {
 
 TEST_F(DeformTest, GivesThePointsOfTheLastIteration) {
   const std::vector<std::pair<std::string, int>> cases{{"{type: uniform, step: 4}", 1},
-                                                       {"{type: adaptive, threshold: 1}", 3}};
+                                                       {"{type: adaptive, threshold: 1}", 2}};
   for (const auto& [sampler, iterations] : cases) {
     SCOPED_TRACE(sampler);
     const std::vector<std::string> sets{
