@@ -41,11 +41,6 @@ std::set<ResultFolder*>& open_folders() {
   return folders;
 }
 
-/// Of a list that someone has edited: nothing outside of the folder is the result's.
-bool leads_out(const fs::path& file) {
-  return file.is_absolute() || std::find(file.begin(), file.end(), "..") != file.end();
-}
-
 /// The files that `folder` lists as a result's, and those that results in folders of this one do.
 Files listed(const fs::path& folder) {
   std::error_code ignored;
@@ -135,6 +130,10 @@ bool is_input(const fs::path& file, const Files& inputs) {
 }
 
 }  // namespace
+
+bool leads_out(const fs::path& file) {
+  return file.is_absolute() || std::find(file.begin(), file.end(), "..") != file.end();
+}
 
 ResultFolder::ResultFolder(const fs::path& folder, const Files& files, const Files& inputs,
                            Leftovers leftovers)

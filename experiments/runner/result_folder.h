@@ -6,6 +6,10 @@
 
 namespace pliant {
 
+/// Whether a path that should be of a file in a result's folder may be of one elsewhere, as in a list that
+/// someone has edited.
+bool leads_out(const std::filesystem::path& file);
+
 /// A folder that holds one result, the old or the new one, and may hold other files as well. A result is
 /// written into its folder `unfinished`, by one process at a time; commit() puts it in the old one's place by
 /// renaming. What belongs to a result is listed in its file `.pliant`; nothing else is ever replaced or

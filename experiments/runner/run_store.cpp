@@ -6,6 +6,7 @@
 #include <functional>
 #include <string_view>
 
+#include "experiments/runner/result_folder.h"
 #include "experiments/runner/version.h"
 #include "experiments/tasks/json_file.h"
 #include "framework/core/error.h"
@@ -61,7 +62,7 @@ std::optional<Stored> read_run(const fs::path& folder, const std::string& key) {
     if (json.at("key") != key) return {};
     std::vector<std::string> files;
     for (const auto& [name, mark] : json.at("files").items()) {
-      if (fs::path(name).filename() != name || mark_of(folder / name) != mark) return {};
+      if (leads_out(name) || mark_of(folder / name) != mark) return {};
       files.push_back(name);
     }
     return Stored{{folder.filename().string(), json.at("run"), table_of(json.at("summary")), json.at("notes"),
@@ -79,6 +80,7 @@ void copy_run(const fs::path& from, const fs::path& to, std::vector<std::string>
   fs::create_directories(to, error);
   files.emplace_back(file_name);
   for (const std::string& file : files) {
+    if (!error) fs::create_directories((to / file).parent_path(), error);
     if (!error) fs::copy_file(from / file, to / file, error);
     if (error)
       throw DataError(fmt::format("{}: cannot be written: {}", (to / file).string(), error.message()));
@@ -95,7 +97,8 @@ std::string run_key(const Task& task, const ExperimentRun& run, const DeviceInfo
 
 void RunStore::write(const RunSummary& run, const std::string& key, const Files& files) const {
   auto marks = ordered_json::object();
-  for (const auto& written : files) marks[written.filename().string()] = mark_of(written);
+  for (const auto& written : files)
+    marks[written.lexically_relative(folder_ / run.name).string()] = mark_of(written);
   write_json((folder_ / run.name / file_name).string(), {{"schema", 1},
                                                          {"key", key},
                                                          {"version", version()},

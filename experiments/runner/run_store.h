@@ -26,7 +26,8 @@ class RunStore {
   explicit RunStore(std::filesystem::path folder, std::filesystem::path last = {})
       : folder_(std::move(folder)), last_(std::move(last)) {}
 
-  /// `files`: those that reports wrote, in the run's folder. Throws DataError when it cannot be written.
+  /// `files`: those that its task and reports wrote, in the run's folder or below. Throws DataError when it
+  /// cannot be written.
   void write(const RunSummary& run, const std::string& key, const Files& files) const;
 
   /// A run with all its files, as they were; none where it is not there, is broken or came of anything else.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "framework/core/error.h"
+#include "framework/geometry/point_set.h"
 
 namespace pliant {
 
@@ -21,6 +22,12 @@ ParameterTable record_table() {
       real("error_scale", 10).unit("mm").range(0.01, 1000).doc("what the colours of errors.png end at"),
       integer("until", 0).range(0, 1e9).doc("number of the frame that tracking ends with; 0: the last one"),
       integer("every", 1).range(1, 10000).doc("so many frames go by from one of its pictures to the next"),
+      choice("tracks", {"none", "gltf", "ply", "both"}, "none")
+          .doc("writes where the points of `followed` went: tracks.glb, an animated mesh for any viewer, "
+               "tracks/frame_0123.ply, a mesh a frame, or both"),
+      integer("tracks_every", 1)
+          .range(1, 10000)
+          .doc("so many frames go by from one frame of `tracks` to the next"),
   };
 }
 
@@ -53,7 +60,9 @@ std::shared_ptr<ErrorPictures> make_error_pictures(const Parameters& record) {
 }
 
 TrackPictures::TrackPictures(const ExperimentRun& run, const Making& making, const Rig& rig, Device& device)
-    : video_file_(making.folder / video_name), observers_{strip_.get(), view_.get()} {
+    : tracks_(make_point_tracks(run.values, making.folder, rig)),
+      video_file_(making.folder / video_name),
+      observers_{strip_.get(), view_.get()} {
   if (making.observer != nullptr) observers_.push_back(making.observer);
   if (run.values.has("record")) {
     const Parameters& record = run.values.section("record");
@@ -63,16 +72,22 @@ TrackPictures::TrackPictures(const ExperimentRun& run, const Making& making, con
       observers_.push_back(&video_.emplace(video_file_, static_cast<int>(record.integer("every"))));
   }
   const bool is_color_seen = video_ || making.observer != nullptr;
-  if (is_color_seen && run.values.has("augmentation"))
-    augmentation_.emplace(make_augmentation(run.values.section("augmentation"), device, rig));
+  if (is_color_seen && run.values.has("augmentation")) {
+    const Parameters& section = run.values.section("augmentation");
+    augmentation_.emplace(make_augmentation(section, device, rig));
+    reach_ = section.real("reach");
+  }
   for (TrackObserver* observer : observers_) observer->begin(rig);
 }
 
 bool TrackPictures::show(const Frame& frame, const FrameRecord& record, const Tracker& tracker) {
   const bool has_model = tracker.has_model();
+  if (tracks_ && has_pose(record.state) && !tracker.followed_pixels().empty())
+    tracks_->add(record.number, record.time, tracker.followed_pixels(),
+                 unflatten(tracker.model().followed()));
   ColorImage augmented;
   if (augmentation_ && has_pose(record.state))
-    augmented = augmentation_->draw(frame, record.camera_from_model);
+    augmented = augmentation_->draw(frame, camera_from_surface(record, tracker));
   const TrackedFrame tracked{frame, augmented.empty() ? frame.color : augmented, record,
                              has_model ? &tracker.seen() : nullptr,
                              has_model ? &tracker.model_view() : nullptr};
@@ -81,7 +96,21 @@ bool TrackPictures::show(const Frame& frame, const FrameRecord& record, const Tr
   return goes_on;
 }
 
+/// Where the part of the model that carries the virtual object is: it goes with what is followed of it.
+Eigen::Isometry3d TrackPictures::camera_from_surface(const FrameRecord& record, const Tracker& tracker) {
+  if (tracker.followed_pixels().empty()) return record.camera_from_model;
+  const std::vector<Eigen::Vector3f> points = unflatten(tracker.model().followed());
+  if (!attachment_) attachment_.emplace(points, augmentation_->anchor(), reach_);
+  return record.camera_from_model * attachment_->motion(points);
+}
+
 void TrackPictures::add_to(RunArtefacts& made, Mesh model) const {
+  if (tracks_) {
+    const auto files = tracks_->finish();
+    made.files.insert(made.files.end(), files.begin(), files.end());
+    if (files.empty())
+      made.notes.emplace_back("no tracks are written: the frames ended before points were followed");
+  }
   if (video_) made.files.push_back(video_file_);
   if (errors_ && !errors_->empty())
     made.pictures.emplace_back(errors_name, "The model and how far chosen frames are from it",

@@ -64,7 +64,8 @@ class TrackTask : public Task {
     names.pictures = {TrackPictures::strip_name, TrackPictures::errors_name};
     names.view = true;
     names.files = TrackLog::files();
-    names.files.insert(names.files.end(), {model_ply, model_glb, TrackPictures::video_name});
+    names.files.insert(names.files.end(),
+                       {model_ply, model_glb, TrackPictures::video_name, PointTracks::gltf_name});
     return names;
   }
 
@@ -74,6 +75,7 @@ class TrackTask : public Task {
     const auto stream = workbench.open(run.values);
     const Tracker tracker(method, stream->rig(), workbench.device(run.values));
     if (run.values.has("record")) make_error_pictures(run.values.section("record"));
+    make_point_tracks(run.values, {}, stream->rig());
     if (run.values.has("augmentation")) read_object(run.values.section("augmentation"));
     CheckedStream(*stream).next();
     return stream->warnings();

@@ -26,11 +26,14 @@ class Augmentation {
   Augmentation(Device& device, Object object, const Rig& rig, double tolerance);
 
   /// The frame's colour image with the object drawn where it is nearer to the colour camera than what the
-  /// depth shows, and where no depth was measured. `camera_from_model` (mm): where the model is in the depth
-  /// camera's frame. Depth is taken to a colour camera of its own by depth_at_color; a mask plays no part.
-  /// The object is lit from the colour camera (Lambert), both sides alike. Throws DataError for a frame
-  /// without colour. The frame must fit the rig (`check`).
+  /// depth shows, and where no depth was measured. `camera_from_model` (mm): where the model, or the part of
+  /// it that carries the object, is in the depth camera's frame. Depth is taken to a colour camera of its own
+  /// by depth_at_color; a mask plays no part. The object is lit from the colour camera (Lambert), both sides
+  /// alike. Throws DataError for a frame without colour. The frame must fit the rig (`check`).
   ColorImage draw(const Frame& frame, const Eigen::Isometry3d& camera_from_model) const;
+
+  /// The object's origin, mm, in the model's frame.
+  Eigen::Vector3d anchor() const { return object_.model_from_object.translation(); }
 
  private:
   /// Of every vertex, in the frame that `vertices` are in: r g b in turn.

@@ -49,6 +49,10 @@ ParameterTable augmentation_table() {
           .doc("how it is turned in that frame about x, then y, then z, from upright and facing the camera"),
       reals("color", 3, std::vector<double>{240, 170, 40})
           .doc("red, green and blue, 0 to 255, of an object whose file has no colours but textures"),
+      real("reach", 30)
+          .unit("mm")
+          .above(0)
+          .doc("where points are `followed`, the nearest ones within this of `at` carry it"),
       real("tolerance", 5)
           .unit("mm")
           .at_least(0)

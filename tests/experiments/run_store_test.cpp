@@ -51,6 +51,20 @@ TEST_F(RunStoreTest, GivesBackWhatItWasGiven) {
   EXPECT_EQ(json["run"], summary_.json);
 }
 
+TEST_F(RunStoreTest, TakesFilesInFoldersOfTheRunWithIt) {
+  fs::create_directories(file("store/a/tracks"));
+  store_.write(summary_, "key", {write("store/a/tracks/frame_0001.ply", "ply")});
+  const RunStore next(file("next"), file("store"));
+  ASSERT_TRUE(next.find("a", "key"));
+  EXPECT_EQ(text_of("next/a/tracks/frame_0001.ply"), "ply");
+  write("store/a/tracks/frame_0001.ply", "edited");
+  EXPECT_FALSE(store_.find("a", "key"));
+  auto json = ordered_json::parse(text_of("next/a/run.json"));
+  json["files"] = {{"../../store/a/tracks/frame_0001.ply", "6 0"}};
+  write("next/a/run.json", json.dump());
+  EXPECT_FALSE(RunStore(file("next")).find("a", "key")) << "not of the run";
+}
+
 TEST_F(RunStoreTest, AFolderIsAnotherOneWhenItsFilesChange) {
   const Parameters section("tum", {{"folder", file("store")}});
   const std::string before = fingerprint(section);

@@ -8,6 +8,7 @@
 #include "experiments/tasks/json_file.h"
 #include "experiments/view/track_observer.h"
 #include "framework/core/error.h"
+#include "framework/io/gltf.h"
 #include "framework/io/images.h"
 #include "framework/io/surface_mesh.h"
 #include "framework/io/trajectory_file.h"
@@ -113,6 +114,28 @@ TEST_F(TrackTest, WhoWatchesSeesTheVirtualObject) {
   }
 }
 
+// Nothing deforms here: what goes with points that are followed is where it would be without them.
+TEST_F(TrackTest, TheVirtualObjectStaysOnARigidModel) {
+  write("box.obj", "v -20 -20 0\nv 20 -20 0\nv 0 20 0\nf 1 2 3\n");
+  const std::string augmented = tracked_head +
+                                "  texture: skin\naugmentation: {mesh: box.obj, scale: 1, at: [0, 0, 400], "
+                                "color: [1, 2, 3], reach: 1000}\n";
+  Watching fixed(4);
+  RunOptions options;
+  options.observer = &fixed;
+  track(augmented, options);
+  Watching carried(4);
+  options.observer = &carried;
+  track(augmented + "followed: {from: 2, step: 4}\n", options);
+  ASSERT_EQ(carried.colors.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    int different = 0;
+    for (std::size_t pixel = 0; pixel < fixed.colors[i].size(); ++pixel)
+      different += fixed.colors[i].data()[pixel] == carried.colors[i].data()[pixel] ? 0 : 1;
+    EXPECT_LE(different, 4) << "frame " << i + 1;
+  }
+}
+
 TEST_F(TrackTest, LeavesStripViewAndFilm) {
   track(tracked_head + "record: {video: true, every: 2}\nreports: {pictures: {}, page: {}, view: {}}\n");
   EXPECT_GT(fs::file_size(file("out/strip.png")), 2000U);
@@ -123,6 +146,33 @@ TEST_F(TrackTest, LeavesStripViewAndFilm) {
   EXPECT_THAT(text_of("out/index.html"), HasSubstr("class=\"view-figure\""));
   const std::string film = text_of("out/video.avi");
   EXPECT_EQ(film[48], 4) << "pictures, of frames 1, 3, 5 and 7";
+}
+
+TEST_F(TrackTest, WritesWhereFollowedPointsWent) {
+  const std::string followed = "followed: {from: 2, step: 4}\n";
+  const std::string record = "record: {tracks: both, tracks_every: 2}\n";
+  track(tracked_head + followed + record);
+  const SurfaceMesh first = read_surface_mesh(file("out/tracks/frame_0002.ply"), 1);
+  EXPECT_GT(first.vertices.size(), 100U);
+  EXPECT_GT(first.triangles.size(), 100U);
+  const SurfaceMesh last = read_surface_mesh(file("out/tracks/frame_0006.ply"), 1);
+  EXPECT_EQ(last.vertices, first.vertices) << "the model is rigid, and the tracks are in its frame";
+  EXPECT_FALSE(fs::exists(file("out/tracks/frame_0003.ply")));
+  const GltfScene scene = read_gltf_scene(file("out/tracks.glb"));
+  EXPECT_EQ(scene.mesh.vertices.size(), first.vertices.size());
+  EXPECT_EQ(scene.mesh.targets.size(), 2U);
+  EXPECT_NEAR(scene.animations.at(0).duration, 4 / 30.0, 1e-6);
+  track(tracked_head);
+  EXPECT_FALSE(fs::exists(file("out/tracks"))) << "a result without tracks takes their place";
+  EXPECT_FALSE(fs::exists(file("out/tracks.glb")));
+  track(tracked_head + "followed: {from: 100}\n" + record);
+  EXPECT_THAT(result_.runs.at(0).notes, ::testing::Contains(HasSubstr("no tracks are written")));
+  try {
+    check_experiment(plan(tracked_head + record), workbench_);
+    ADD_FAILURE();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'tracks' of points, but none is followed"));
+  }
 }
 
 TEST_F(TrackTest, AStudyShowsFramesPicturesAndViewsOfRuns) {

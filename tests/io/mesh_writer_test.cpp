@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <stdexcept>
+
 #include "framework/io/gltf.h"
 #include "framework/io/surface_mesh.h"
 #include "tests/io/test_files.h"
@@ -32,6 +34,26 @@ TEST_F(MeshWriterTest, GltfIsTheSameInMetresTurnedUpright) {
     const Eigen::Vector3f upright(vertex.x(), -vertex.y(), -vertex.z());
     EXPECT_LT((read.vertices[i] - upright).norm(), 1e-3F) << i;
   }
+}
+
+TEST_F(MeshWriterTest, AnAnimationMovesTheTargets) {
+  Mesh mesh = tetrahedron;
+  mesh.targets = {{"up", std::vector<Eigen::Vector3f>(4, {0, -30, 0})},
+                  {"near", {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, -50}}}};
+  const Track weights{Track::Interpolation::linear, 2, {0, 0.5, 2}, {0, 0, 1, 0, 0.25, 1}};
+  write_animated_glb(file("moving.glb"), mesh, weights);
+  const GltfScene read = read_gltf_scene(file("moving.glb"));
+  EXPECT_EQ(read.mesh.target_names(), mesh.target_names());
+  ASSERT_EQ(read.animations.size(), 1U);
+  for (const double seconds : {0.0, 0.25, 0.5, 1.25, 2.0}) {
+    const auto expected = mesh.deform(weights.at(seconds));
+    const auto moved = read.mesh.deform(read.animations[0].pose(read.mesh, seconds));
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const Eigen::Vector3d upright(expected[i].x(), -expected[i].y(), -expected[i].z());
+      EXPECT_LT((moved[i] - upright).norm(), 1e-3) << seconds << " s, vertex " << i;
+    }
+  }
+  EXPECT_THROW(write_animated_glb(file("moving.glb"), tetrahedron, weights), std::invalid_argument);
 }
 
 TEST_F(MeshWriterTest, AnEmptyModelIsAFileWithoutMesh) {
