@@ -9,6 +9,7 @@
 #include "benchmarks/tracking_frame.h"
 #include "benchmarks/tracking_imaging.h"
 #include "benchmarks/tracking_model.h"
+#include "benchmarks/tracking_policies.h"
 
 namespace pliant::bench {
 namespace {
@@ -74,6 +75,7 @@ int run_tracking_mode(const Options& options) {
     lists[name] = measure(device, name, images, options);
     print(name, lists[name]);
   }
+  lists["policies"] = measure_policies(device, options);
   write_json(options, lists);
   return 0;
 }
