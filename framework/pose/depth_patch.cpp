@@ -61,13 +61,14 @@ DepthPatch patch_of_head(const std::vector<Eigen::Vector3f>& points,
                          const Eigen::Isometry3d& camera_from_head) {
   constexpr auto scale = static_cast<float>(1 / cell_of_head);
   constexpr float reach = DepthPatch::reach;
+  constexpr float middle = size / 2;  // NOLINT(bugprone-integer-division): a whole cell
   const Eigen::Isometry3f head_from_camera = camera_from_head.inverse().cast<float>();
   DepthPatch::Cells sums{};
   DepthPatch::Cells counts{};
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3f seen = head_from_camera * point;
-    const float column = seen.x() * scale + size / 2;
-    const float line = -seen.y() * scale + size / 2;
+    const float column = seen.x() * scale + middle;
+    const float line = -seen.y() * scale + middle;
     if (!(column >= 0 && column < size && line >= 0 && line < size && std::abs(seen.z()) <= reach)) continue;
     const auto at = static_cast<std::size_t>(static_cast<int>(line) * size + static_cast<int>(column));
     sums[at] -= seen.z();
