@@ -12,6 +12,7 @@
 #include "experiments/methods/best.yaml.embed.h"
 #include "experiments/methods/best_depth.yaml.embed.h"
 #include "experiments/methods/ed.yaml.embed.h"
+#include "experiments/methods/tracking.yaml.embed.h"
 #include "experiments/runner/components.h"
 #include "experiments/runner/experiment.h"
 #include "experiments/tasks/workbench.h"
@@ -26,7 +27,8 @@ const std::map<std::string, std::string>& methods() {
       {"methods/ad_nodes_ad_cons.yaml", std::string(embedded::experiments_methods_ad_nodes_ad_cons_yaml)},
       {"methods/best.yaml", std::string(embedded::experiments_methods_best_yaml)},
       {"methods/best_depth.yaml", std::string(embedded::experiments_methods_best_depth_yaml)},
-      {"methods/ed.yaml", std::string(embedded::experiments_methods_ed_yaml)}};
+      {"methods/ed.yaml", std::string(embedded::experiments_methods_ed_yaml)},
+      {"methods/tracking.yaml", std::string(embedded::experiments_methods_tracking_yaml)}};
   return texts;
 }
 

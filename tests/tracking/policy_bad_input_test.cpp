@@ -18,7 +18,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr Camera wide{80, 80, 39.5, 29.5, 80, 60};
-constexpr Camera small{32, 32, 15.5, 11.5, 32, 24};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
