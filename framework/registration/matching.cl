@@ -308,8 +308,8 @@ kernel void sum_residuals(int count, global const float* moved, float4 camera, i
     robust += there * counted * counted;
     squares += known * r * r;
   }
-  partials[get_global_id(0)] =
-      (float8)(sum_of(sum), sum_of(matched), sum_of(landed), sum_of(lost), sum_of(robust), sum_of(squares), 0, 0);
+  partials[get_global_id(0)] = (float8)(sum_of(sum), sum_of(matched), sum_of(landed), sum_of(lost),
+                                        sum_of(robust), sum_of(squares), 0, 0);
 }
 
 kernel void total_residual(int count, global const float8* partials, global float8* total) {
