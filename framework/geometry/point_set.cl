@@ -1,5 +1,9 @@
 // Kernels over lists of points. (0, 0, 0) stands for no point.
 
+float3 turned(float3 v, float4 row_x, float4 row_y, float4 row_z) {
+  return (float3)(dot(row_x.xyz, v), dot(row_y.xyz, v), dot(row_z.xyz, v));
+}
+
 // The points and normals at some indices, moved rigidly: rotation in x y z, translation in w of the rows.
 kernel void pick(int count, global const int* indices, global const float* points,
                  global const float* normals, float4 row_x, float4 row_y, float4 row_z,
@@ -8,9 +12,8 @@ kernel void pick(int count, global const int* indices, global const float* point
   if (i >= count) return;
   const float3 p = vload3(indices[i], points);
   const float3 n = vload3(indices[i], normals);
-  const float3 turned = (float3)(dot(row_x.xyz, p), dot(row_y.xyz, p), dot(row_z.xyz, p));
-  vstore3(turned + (float3)(row_x.w, row_y.w, row_z.w), i, picked_points);
-  vstore3((float3)(dot(row_x.xyz, n), dot(row_y.xyz, n), dot(row_z.xyz, n)), i, picked_normals);
+  vstore3(turned(p, row_x, row_y, row_z) + (float3)(row_x.w, row_y.w, row_z.w), i, picked_points);
+  vstore3(turned(n, row_x, row_y, row_z), i, picked_normals);
 }
 
 // The other way round: points and normals go to some indices of others.
@@ -29,10 +32,9 @@ kernel void move(int count, global const float* points, global const float* norm
   if (i >= count) return;
   const float3 p = vload3(i, points);
   const float3 n = vload3(i, normals);
-  const float3 turned = (float3)(dot(row_x.xyz, p), dot(row_y.xyz, p), dot(row_z.xyz, p));
-  const float3 moved = turned + (float3)(row_x.w, row_y.w, row_z.w);
+  const float3 moved = turned(p, row_x, row_y, row_z) + (float3)(row_x.w, row_y.w, row_z.w);
   vstore3(any(p != 0.0f) ? moved : p, i, moved_points);
-  vstore3((float3)(dot(row_x.xyz, n), dot(row_y.xyz, n), dot(row_z.xyz, n)), i, moved_normals);
+  vstore3(turned(n, row_x, row_y, row_z), i, moved_normals);
 }
 
 // Which of them are points.

@@ -62,13 +62,13 @@ void Reintegration::follow(const Array<float>& points) { followed_ = points.clon
 
 void Reintegration::move_followed(const ModelDeformation& deformation) {
   const EmbeddedGraph& graph = deformation.graph;
-  PointSet points{std::move(followed_), Array<float>(std::size_t{0})};
-  points.normals = no_points(device_, points.points.size() / 3).normals;
+  PointSet points = no_points(device_, followed_.size() / 3);  // their normals are not asked for
+  points.points = std::move(followed_);
   PointSet seen = no_points(device_, points.points.size() / 3);
   move_points(device_, points, deformation.camera_from_model, seen);
   const Influences influences =
       compute_influences(device_, seen.points, graph.positions, deformation.nearest_nodes);
-  warp(device_, seen, influences, graph.node_points, deformation.affine, points);
+  warp_points(device_, seen.points, influences, graph.node_points, deformation.affine, points.points);
   move_points(device_, points, deformation.camera_from_model_after.inverse(), seen);
   followed_ = std::move(seen.points);
 }

@@ -69,10 +69,6 @@ std::string why_rejected(const RegistrationRecord& registration, const TrackingE
   return {};
 }
 
-}  // namespace
-
-namespace {
-
 /// The rigid motion of least weighted squares [Kabsch 1976].
 Eigen::Isometry3d fitted_motion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
                                 const Eigen::VectorXd& weights) {
@@ -81,7 +77,7 @@ Eigen::Isometry3d fitted_motion(const Eigen::Matrix3Xd& from, const Eigen::Matri
   const Eigen::Matrix3d spread =
       (to.colwise() - middle_to) * weights.asDiagonal() * (from.colwise() - middle_from).transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+  const Eigen::Vector3d signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
   motion.translation() = middle_to - motion.linear() * middle_from;
