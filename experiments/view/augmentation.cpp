@@ -59,7 +59,6 @@ Augmentation::Augmentation(Device& device, Object object, const Rig& rig, double
     : object_(std::move(object)),
       rig_(rig),
       tolerance_(tolerance),
-      device_(device),
       renderer_(device, object_.mesh.triangles, object_.mesh.vertices.size()) {
   if (object_.mesh.colors.size() != object_.mesh.vertices.size())
     throw std::invalid_argument("the object has not as many colours as vertices");

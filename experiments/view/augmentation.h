@@ -42,7 +42,6 @@ class Augmentation {
   Object object_;
   Rig rig_;
   double tolerance_;
-  Device& device_;
   MeshRenderer renderer_;
 };
 

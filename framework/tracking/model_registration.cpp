@@ -141,8 +141,7 @@ Eigen::Isometry3d ModelRegistration::run(DeformingModel& model, const SurfaceMap
     registration.is_rejected = !registration.reason.empty();
     if (registration.is_rejected) return camera_from_model;
     registration.reason = deformation.reason.empty() ? deformation.termination : deformation.reason;
-    const Eigen::Isometry3d pose_after =
-        common_motion(*deformation.graph, deformation.affine) * camera_from_model;
+    Eigen::Isometry3d pose_after = common_motion(*deformation.graph, deformation.affine) * camera_from_model;
     model.deform({*deformation.graph, deformation.affine, moved, method_.nearest_nodes, camera_from_model,
                   pose_after});
     record.error = after;
