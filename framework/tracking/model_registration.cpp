@@ -116,7 +116,7 @@ Eigen::Isometry3d common_motion(const EmbeddedGraph& graph, const Array<float>& 
 Eigen::Isometry3d ModelRegistration::run(DeformingModel& model, const SurfaceMap& view,
                                          const SurfaceMap& seen, const Eigen::Isometry3d& camera_from_model,
                                          TrackingErrorMeter& meter, FrameRecord& record) const {
-  record.rigid_error = record.error = meter.measure(view, seen);
+  const TrackingError before = meter.measure(view, seen);
   RegistrationRecord& registration = record.registration.emplace();
   const auto reject = [&](const std::string& reason) {
     registration.is_rejected = true;
@@ -137,7 +137,7 @@ Eigen::Isometry3d ModelRegistration::run(DeformingModel& model, const SurfaceMap
     registration.nodes = static_cast<int>(deformation.graph->nodes.size());
     registration.constraints = deformation.constraints;
     registration.folded_cells = count_folded_cells(device_, moved);
-    registration.reason = why_rejected(registration, record.rigid_error, after, min_gain_);
+    registration.reason = why_rejected(registration, before, after, min_gain_);
     registration.is_rejected = !registration.reason.empty();
     if (registration.is_rejected) return camera_from_model;
     registration.reason = deformation.reason.empty() ? deformation.termination : deformation.reason;

@@ -19,8 +19,8 @@ class ModelRegistration {
 
   /// Deforms the model to what a frame shows, `seen`; `view`: the last one of the model, from there. What
   /// comes out is rejected, and the model stays as it was, when it is not finite, gains too little, loses
-  /// matches, or folds the surface. Writes `registration` and both errors of the record. Gives where the
-  /// model is after it: what most of the surface does alike is motion, the rest deformation.
+  /// matches, or folds the surface. Writes `registration` of the record, and `error` where it is kept. Gives
+  /// where the model is after it: what most of the surface does alike is motion, the rest deformation.
   Eigen::Isometry3d run(DeformingModel& model, const SurfaceMap& view, const SurfaceMap& seen,
                         const Eigen::Isometry3d& camera_from_model, TrackingErrorMeter& meter,
                         FrameRecord& record) const;

@@ -1,24 +1,30 @@
-// How far a model lies from a frame, with the frame's noise averaged out. `points` and `normals`: of the
-// model, x y z per pixel of the view's window, row by row, (0, 0, 0) where there is none. NAN where nothing
-// is known.
+// How far a model lies from a frame, with the frame's noise averaged out. `points` and `normals` of the
+// model, `seen` and `seen_normals` of the frame: x y z per pixel of the window, row by row, (0, 0, 0) where
+// there is none. NAN where nothing is known.
 #define UNKNOWN NAN
 
-// Depth of the frame at the pixel that a point projects to, less its own; unknown where that is more than
-// `max_distance`, or the point looks away from the camera.
+bool faces_camera(float3 normal, float3 point, float least_facing) {
+  return -dot(point, normal) >= least_facing * length(point);
+}
+
+// Depth of the frame along the ray of a point, less its own; unknown where that is more than `max_distance`,
+// or the point looks away from the camera. The frame is the plane through its point at the nearest pixel:
+// between pixels its slope would count as a distance.
 kernel void difference(int count, global const float* points, global const float* normals, float4 camera,
-                       int4 window, global const float* seen, float max_distance, float least_facing,
-                       global float* differences) {
+                       int4 window, global const float* seen, global const float* seen_normals,
+                       float max_distance, float least_facing, global float* differences) {
   const int i = get_global_id(0);
   if (i >= count) return;
   float told = UNKNOWN;
   const float3 p = vload3(i, points);
-  const float3 n = vload3(i, normals);
-  if (p.z > 0.0f && -dot(p, n) >= least_facing * length(p)) {
+  if (p.z > 0.0f && faces_camera(vload3(i, normals), p, least_facing)) {
     const int u = convert_int_rte(camera.x * p.x / p.z + camera.z) - window.x;
     const int v = convert_int_rte(camera.y * p.y / p.z + camera.w) - window.y;
     if (u >= 0 && v >= 0 && u < window.z && v < window.w) {
-      const float depth = seen[3 * (v * window.z + u) + 2];
-      if (depth > 0.0f && fabs(depth - p.z) <= max_distance) told = depth - p.z;
+      const float3 q = vload3(v * window.z + u, seen);
+      const float3 n = vload3(v * window.z + u, seen_normals);
+      const float depth = faces_camera(n, p, least_facing) ? p.z * dot(n, q) / dot(n, p) : q.z;
+      if (q.z > 0.0f && fabs(depth - p.z) <= max_distance) told = depth - p.z;
     }
   }
   differences[i] = told;

@@ -63,7 +63,7 @@ TrackingError TrackingErrorMeter::measure(const SurfaceMap& model, const Surface
   device_.run("error", difference, pixels, work_group, static_cast<cl_int>(pixels),
               model.points().device(device_), model.normals().device(device_), pinhole(seen.camera),
               cl_int4{{window.left, window.top, window.width, window.height}}, seen.points().device(device_),
-              static_cast<float>(options_.max_distance),
+              seen.normals().device(device_), static_cast<float>(options_.max_distance),
               static_cast<float>(std::cos(options_.max_view_angle)), differences_.write_device(device_));
   device_.run("error", sum_rows, pixels, work_group, size, radius, differences_.device(device_),
               sums_.write_device(device_));
@@ -83,12 +83,17 @@ std::vector<float> tracking_error_reference(const SurfaceMap& model, const Surfa
     const Eigen::Map<const Eigen::Vector3f> n(model.normals().host().data() + 3 * at);
     const float unknown = std::numeric_limits<float>::quiet_NaN();
     const auto least_facing = static_cast<float>(std::cos(options.max_view_angle));
-    if (!(p.z() > 0) || !(-p.dot(n) >= least_facing * p.norm())) return unknown;
+    const auto faces_camera = [&](const Eigen::Vector3f& normal) {
+      return -p.dot(normal) >= least_facing * p.norm();
+    };
+    if (!(p.z() > 0) || !faces_camera(n)) return unknown;
     const Eigen::Vector2d place = seen.camera.project(p.cast<double>());
     const Eigen::Vector2i pixel(static_cast<int>(std::nearbyint(place.x())),
                                 static_cast<int>(std::nearbyint(place.y())));
-    const float depth = finite_or_none(seen, seen.points(), pixel).z();
-    const bool is_known = depth > 0 && std::abs(depth - p.z()) <= static_cast<float>(options.max_distance);
+    const Eigen::Vector3f q = finite_or_none(seen, seen.points(), pixel);
+    const Eigen::Vector3f plane = finite_or_none(seen, seen.normals(), pixel);
+    const float depth = faces_camera(plane) ? p.z() * plane.dot(q) / plane.dot(p) : q.z();
+    const bool is_known = q.z() > 0 && std::abs(depth - p.z()) <= static_cast<float>(options.max_distance);
     return is_known ? depth - p.z() : unknown;
   };
   std::vector<float> distances;

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kAdaptive = "policy={type: adaptive, threshold: 0.6, patience: 0}";
+const std::string kAdaptive = "policy={type: adaptive, threshold: 0.3, patience: 0}";
 const std::vector<std::string> kUpdates{"update={type: reintegration, weight: 64}",
                                         "update={type: warp_field}"};
 
