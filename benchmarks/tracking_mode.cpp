@@ -47,6 +47,7 @@ ordered_json measure(Device& device, const std::string& name, const TrackedImage
   std::erase_if(measured, [&](const StagePair& stage) {
     return (name + " " + stage.stage).find(options.only) == std::string::npos;
   });
+  if (measured.empty()) return ordered_json::array();
   for (const StagePair& stage : measured) {
     timings.add(key(stage, "ours"), repeats, stage.ours);
     timings.add(key(stage, "opencv"), repeats, stage.opencv);
