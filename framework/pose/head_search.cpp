@@ -16,9 +16,10 @@ constexpr double cell = 60;           // mm, of the grid in which the search beg
 constexpr float least_angle = 0.02F;  // radians: no vote is surer of its angles
 constexpr int approaching = 10;       // refinements that lead to a pose, and then
 constexpr int averaged = 8;           // so many whose mean is taken
-// Radians: how unsure the trees that refine are of the angles of 9 heads in 10, and of nearly all else.
+// Radians: how unsure the trees that refine are of the angles of most heads, and of hardly any. In between
+// are heads that look far up or down as well as what is none: there it counts how many votes agree.
 constexpr double surely_head = 0.1;
-constexpr double no_head = 0.25;
+constexpr double no_head = 0.4;
 constexpr double head_area = 22000;  // mm^2 that a camera sees of a head, about
 
 struct Vote {

@@ -15,7 +15,7 @@ struct HeadSearchOptions {
   int stride = 4;               ///< pixels from one patch to the next
   double least_share = 0.7;     ///< of a leaf's patches that were on a head, for it to vote
   double greatest_spread = 45;  ///< mm of the centre, for a leaf to vote
-  double least_confidence = 0.3;
+  double least_confidence = 0.55;
 };
 
 /// A head in a depth map.
