@@ -105,8 +105,10 @@ int run_head_forest_mode(const Options& options) {
     measure("unseen heads, exact", {heads, exact}, seed, false);
     measure("unseen heads, Kinect", {heads, alone}, seed, false);
     measure("varied, shoulders, clutter", {heads, HeadViewOptions()}, seed, false);
-    if (const auto scanned = find_data(data_folders(options.data), "ict_face/ict_face.glb"))
-      measure("ict_face without its mean offset", {{figure_of(scanned->string())}, alone}, seed, true);
+    const std::string scanned = "ict_face/ict_face.glb";
+    if (const auto folder = find_data(data_folders(options.data), scanned))
+      measure("ict_face without its mean offset", {{figure_of((*folder / scanned).string())}, alone}, seed,
+              true);
     const std::string no_heads = "sheets, hands, bags";
     if (!asked_for(no_heads)) continue;
     rows.push_back(measure_no_heads(no_heads, forest, views, seed));

@@ -39,8 +39,7 @@ int main(int argument_count, char** arguments) {
   const auto* render = add_mode("render", "Frames of a mesh with their truth, on the device and on the host");
   const auto* pose = add_mode("pose", "Rigid tracking of sequences whose poses are known, beside OpenCV's");
   const auto* tracking = add_mode(
-      "tracking",
-      "Stages of a tracked frame beside OpenCV's, and the sequences of chapter 6 by each policy, whole");
+      "tracking", "Stages of a tracked frame beside OpenCV's, and the sequences of chapter 6 by each policy");
   const auto* relocalisation = add_mode(
       "relocalisation", "A head that leaps by 100 mm and 30 degrees: how often each relocalizer finds it");
   auto* head_forest =
