@@ -50,7 +50,7 @@ void register_policies(Registry& registry) {
                        });
   registry.add<Policy>(
       "adaptive", "Where rigid tracking fails, the sign of a deformation (NRAdaptive of the thesis)",
-      {real("threshold", 0.5)
+      {real("threshold", 0.4)
            .unit("mm")
            .at_least(0)
            .doc("A greater mean error of rigid tracking is a failure; 0: every frame is one"),

@@ -37,7 +37,7 @@ std::vector<Parameter> tracking_rows() {
           .doc("When the model is registered non-rigidly to such a frame [4.8]; without it the model is "
                "rigid, "
                "and its distance to frames is not measured"),
-      component("update", ModelUpdate::kind, "reintegration").doc("How it takes up what comes of that [4.8]"),
+      component("update", ModelUpdate::kind, "warp_field").doc("How it takes up what comes of that [4.8]"),
       group("tracking_error", tracking_error_table())
           .doc("How the distance between the model and a frame is measured, by which the policy judges"),
       group("followed", followed_table()).doc("Points of the model that are followed wherever it goes"),
