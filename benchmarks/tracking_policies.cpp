@@ -36,7 +36,8 @@ std::vector<ExperimentRun> runs_of(const std::string& sequence, const Registry& 
       "runs:\n"
       "  rigid_only: {{extends: data/{0}.yaml, policy: rigid_only}}\n"
       "  adaptive: {{extends: data/{0}.yaml, policy: adaptive}}\n"
-      "  adaptive_warp_field: {{extends: data/{0}.yaml, policy: adaptive, update: warp_field}}\n",
+      "  adaptive_reintegration:\n"
+      "    {{extends: data/{0}.yaml, policy: adaptive, update: {{type: reintegration, weight: 255}}}}\n",
       sequence);
   return plan_experiment({ConfigText{text, "the policies", experiments_folder() / "chapter6"}, {}, {}},
                          registry)

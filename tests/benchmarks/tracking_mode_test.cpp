@@ -40,13 +40,13 @@ TEST_F(TrackingModeTest, MeasuresOnlyWhatIsAskedFor) {
 
 TEST_F(TrackingModeTest, TracksASequenceByAPolicy) {
   const ProgramRun run =
-      call("tracking --quick --json rows.json --only 'policies smile adaptive_warp_field'");
+      call("tracking --quick --json rows.json --only 'policies smile adaptive_reintegration'");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto lists = nlohmann::json::parse(text_of("rows.json"));
   const auto& rows = lists.at("policies");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0]["sequence"], "smile");
-  EXPECT_EQ(rows[0]["policy"], "adaptive_warp_field");
+  EXPECT_EQ(rows[0]["policy"], "adaptive_reintegration");
   EXPECT_GT(rows[0]["frames"], 150);
   EXPECT_GT(rows[0]["fps"], 0);
   EXPECT_GE(rows[0]["slowest_frame_ms"].get<double>(), 1000 / rows[0]["fps"].get<double>());

@@ -60,8 +60,8 @@ TEST_F(PolicyTest, AdaptiveRegistersWhereTheErrorIsAboveTheThreshold) {
   const auto adaptive = method_with("policy={type: adaptive, threshold: 1.5}");
   EXPECT_TRUE(registered(*adaptive.policy, 1.5).empty());
   EXPECT_EQ(registered(*adaptive.policy, 1.51).size(), 12U);
-  EXPECT_TRUE(registered(*method_with("policy=adaptive").policy, 0.49).empty());
-  EXPECT_EQ(registered(*method_with("policy=adaptive").policy, 0.51).size(), 12U);
+  EXPECT_TRUE(registered(*method_with("policy=adaptive").policy, 0.39).empty());
+  EXPECT_EQ(registered(*method_with("policy=adaptive").policy, 0.41).size(), 12U);
   EXPECT_EQ(registered(*method_with("policy={type: adaptive, threshold: 0}").policy, 1e-6).size(), 12U);
 }
 
