@@ -14,6 +14,7 @@ constexpr std::size_t medium = 1 << 20;      // bytes: up to here sizes are powe
 constexpr std::size_t widest = 4;            // times what is asked for
 constexpr std::size_t least_ring = 1 << 20;  // bytes
 constexpr std::size_t ring_share = 4;        // what is sent takes at most one in so many of the ring
+constexpr std::size_t most_flights = 256;    // of small ones a ring would hold many, and each has an event
 
 bool is_unused(const std::shared_ptr<const cl::Buffer>& buffer) { return buffer.use_count() == 1; }
 
@@ -48,7 +49,8 @@ std::size_t StagingRing::make_room(std::size_t bytes) {
   const auto is_in_the_way = [&](const Flight& flight) {
     return flight.begin < begin + bytes && begin < flight.end;
   };
-  while (std::any_of(flights_.begin(), flights_.end(), is_in_the_way)) land();
+  while (flights_.size() >= most_flights || std::any_of(flights_.begin(), flights_.end(), is_in_the_way))
+    land();
   return begin;
 }
 

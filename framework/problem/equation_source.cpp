@@ -13,11 +13,12 @@ namespace {
 
 std::string without_preprocessor_includes(std::string_view source) {
   std::string text;
+  text.reserve(source.size() + 1);  // it is made for every problem, of which a stream has many
   std::size_t begin = 0;
   while (begin < source.size()) {
     const auto end = std::min(source.find('\n', begin), source.size());
     const auto line = source.substr(begin, end - begin);
-    if (!line.starts_with("#include") && !line.starts_with("#pragma once")) text += std::string(line) + "\n";
+    if (!line.starts_with("#include") && !line.starts_with("#pragma once")) text.append(line) += '\n';
     begin = end + 1;
   }
   return text;

@@ -1,6 +1,7 @@
 #include "framework/device/device.h"
 
 #include <gmock/gmock.h>
+#include <malloc.h>
 
 #include <functional>
 
@@ -225,6 +226,19 @@ TEST(Device, UploadsCopiesThatMayChangeOnTheHostAtOnce) {
     device.read(buffers[static_cast<std::size_t>(round)], values.data(), sizeof(float) * values.size());
     ASSERT_THAT(values, testing::Each(2.0F * static_cast<float>(round)));
   }
+}
+
+// A ring of a megabyte has room for so many of them that what drivers keep of each would add up.
+TEST(Device, ManySmallUploadsTakeNoMoreMemoryThanSome) {
+  Device device;
+  const std::vector<float> values(1, 1);
+  std::size_t bytes = 0;
+  for (int i = 0; i < 20000; ++i) {
+    device.upload(values);
+    if (i == 2000) bytes = mallinfo2().uordblks;
+  }
+  device.finish();
+  EXPECT_LT(mallinfo2().uordblks, bytes + (1 << 20)) << "a hundred bytes an upload would be more";
 }
 
 TEST(Device, UsesDroppedMemoryAgain) {
