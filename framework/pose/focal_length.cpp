@@ -17,7 +17,7 @@ constexpr double degree = std::numbers::pi / 180;
 
 cl::Kernel focal_kernel(Device& device) {
   static const std::string text =
-      std::string(embedded::framework_pose_projective_icp_cl) + embedded::framework_pose_focal_length_cl;
+      std::string(embedded::framework_pose_projective_icp_cl).append(embedded::framework_pose_focal_length_cl);
   static const std::string scalar = with_rigid_step(1, text);
   static const std::string vector = with_rigid_step(16, text);
   return device.kernel(device.width() == 1 ? scalar : vector, "add_focal_length");
