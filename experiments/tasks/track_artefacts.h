@@ -18,7 +18,7 @@ struct TrackEnd {
   std::string error = {};             ///< what broke it; empty: it ended, or was ended
   bool is_ended = false;              ///< whether somebody ended it before the stream did
   std::optional<ModelError> model_error = {};
-  std::optional<FocalLengthEstimate> focal_length = {};  ///< where there is a model
+  FocalLengthEstimate focal_length = {};
 };
 
 /// What there is to show of frames that were tracked.

@@ -58,7 +58,7 @@ class FollowedTruth {
 
 std::string focal_length_warning(const FocalLengthEstimate& estimate) {
   return fmt::format(
-      "{} views fit together best with a focal length that is {:.1f} % {} (standard error {:.1f} %): the "
+      "{} views fit together best with a focal length that is {:.0f} % {} (give or take {:.0f} %): the "
       "intrinsics are wrong, or what was tracked is not rigid; calibrate the camera",
       estimate.views, 100 * std::abs(estimate.change), estimate.change > 0 ? "greater" : "smaller",
       100 * estimate.error);
@@ -111,7 +111,7 @@ class TrackTask : public Task {
         model = tracker.model().mesh();
         end.model_error = truth.error_of(model, static_cast<int>(summary.frames.size()));
         end.focal_length = tracker.focal_length();
-        if (end.focal_length->is_wrong()) end.warnings.push_back(focal_length_warning(*end.focal_length));
+        if (end.focal_length.is_wrong()) end.warnings.push_back(focal_length_warning(end.focal_length));
         write_model(model, making.folder, files);
       }
       RunArtefacts made = track_artefacts(run, summary, end);

@@ -1,16 +1,10 @@
 // How distances between two views change with the focal length that both were made with. Compiled behind
-// projective_icp.cl.
+// projective_icp.cl and focal_length_equation.h.
 
 #define FOCAL_SUMS 40  // SUMS, then by motion and focal length (6), by the focal length twice, and times r
 #define FOCAL_USED 8
 
-// v without its part along the axis: what a focal length stretches.
-static inline Vector across(Vector v) {
-  const Vector flat = {v.x, v.y, (Lanes)0};
-  return flat;
-}
-
-// A row of the first view a work-item. The stretch of the view is taken at the moved point, not at its match:
+// A row of the first view a work-item. What stretches the view is taken at the moved point, not at its match:
 // so that where the views are one, no noise of the points looks like a stretch.
 kernel void add_focal_length(int2 size, global const float* first_points, global const float* first_normals,
                              float16 pose, float4 middle, float4 camera, int8 frame,
@@ -40,9 +34,12 @@ kernel void add_focal_length(int2 size, global const float* first_points, global
                           inner(own, own) > (Lanes)0 && inner(own, n) >= (Lanes)least_cosine;
     add_matches(matches, lever, away, own, sums);
     const Lanes arms[3] = {lever.x, lever.y, lever.z}, normal[3] = {own.x, own.y, own.z};
+    const Lanes first_normal[3] = {before.x, before.y, before.z};
+    const Lanes first_point[3] = {p.x, p.y, p.z}, point[3] = {moved.x, moved.y, moved.z};
     Lanes J[6];
     plane_distance_jacobian(arms, normal, J);
-    const Lanes stretch = WHERE(matches, inner(own, across(moved)) - inner(before, across(p)));
+    const Lanes stretch =
+        WHERE(matches, plane_distance_by_focal_length(first_point, first_normal, point, normal));
     for (int a = 0; a < 6; ++a) focal[a] += J[a] * stretch;
     focal[6] += stretch * stretch;
     focal[7] += stretch * WHERE(matches, inner(own, away));

@@ -6,8 +6,10 @@
 #include <string>
 
 #include "framework/pose/focal_length.cl.embed.h"
+#include "framework/pose/focal_length_equation.h.embed.h"
 #include "framework/pose/projective_icp.cl.embed.h"
 #include "framework/pose/projective_icp.h"
+#include "framework/problem/equation_source.h"
 
 namespace pliant {
 namespace {
@@ -16,10 +18,14 @@ constexpr std::size_t focal_sums = 40;  // FOCAL_SUMS in focal_length.cl
 constexpr double degree = std::numbers::pi / 180;
 
 cl::Kernel focal_kernel(Device& device) {
-  static const std::string text =
-      std::string(embedded::framework_pose_projective_icp_cl).append(embedded::framework_pose_focal_length_cl);
-  static const std::string scalar = with_rigid_step(1, text);
-  static const std::string vector = with_rigid_step(16, text);
+  const auto text = [](int width) {
+    const std::string equation =
+        as_opencl(embedded::framework_pose_focal_length_equation_h, width == 1 ? "float" : "float16");
+    return with_rigid_step(width, std::string(embedded::framework_pose_projective_icp_cl) + equation +
+                                      std::string(embedded::framework_pose_focal_length_cl));
+  };
+  static const std::string scalar = text(1);
+  static const std::string vector = text(16);
   return device.kernel(device.width() == 1 ? scalar : vector, "add_focal_length");
 }
 
@@ -62,10 +68,12 @@ Eigen::Vector2d without_motion(const FocalLengthEquations& equations) {
 
 }  // namespace
 
+ProjectiveIcpLevel focal_length_limits(const PixelWindow& window) { return levels_of({}, window).front(); }
+
 bool FocalLengthEstimate::is_wrong() const {
   constexpr int fewest = 5;
   constexpr double least_change = 0.05;
-  constexpr double errors = 4;
+  constexpr double errors = 3;
   return views >= fewest && std::abs(change) > std::max(least_change, errors * error);
 }
 
@@ -80,7 +88,7 @@ FocalLengthCheck::FocalLengthCheck(Device& device, const SurfaceMap& first)
 
 void FocalLengthCheck::add(const SurfaceMap& view, const Eigen::Isometry3d& view_from_first) {
   constexpr double least_turn = 2 * degree;
-  constexpr int fewest = 200;  // matches
+  constexpr int fewest = 200;                                    // matches
   const Eigen::Vector3d axis = view_from_first.linear().row(2);  // of the view, in the first one's frame
   if (axis.dot(last_axis_) > std::cos(least_turn)) return;
   last_axis_ = axis;
@@ -90,6 +98,7 @@ void FocalLengthCheck::add(const SurfaceMap& view, const Eigen::Isometry3d& view
   curvature_ += term[0];
   gradient_ += term[1];
   products_ += term * term.transpose();
+  variances_ += found.motion.squares / found.motion.matches;
   ++views_;
 }
 
@@ -97,12 +106,13 @@ FocalLengthEstimate FocalLengthCheck::estimate() const {
   if (!(curvature_ > 0)) return {};
   const double change = -gradient_ / curvature_;
   const Eigen::Vector2d rest(change, 1);  // what the views' gradients differ from it by
-  return {change, std::sqrt(std::max(rest.dot(products_ * rest), 0.0)) / curvature_, views_};
+  const double spread = views_ * std::max(rest.dot(products_ * rest), 0.0) / (curvature_ * curvature_);
+  return {change, std::sqrt(spread + variances_ / curvature_), views_};
 }
 
 FocalLengthEquations FocalLengthCheck::equations(const SurfaceMap& view,
                                                  const Eigen::Isometry3d& view_from_first) {
-  const ProjectiveIcpLevel limits = levels_of({}, first_.window).back();
+  const ProjectiveIcpLevel limits = focal_length_limits(first_.window);
   const PixelWindow& window = first_.window;
   auto kernel = focal_kernel(*device_);
   device_->run("focal_length", kernel, static_cast<std::size_t>(window.height), 1,

@@ -6,6 +6,7 @@
 #include "framework/device/array.h"
 #include "framework/device/device.h"
 #include "framework/geometry/surface_map.h"
+#include "framework/pose/projective_icp.h"
 #include "framework/pose/rigid_step.h"
 
 namespace pliant {
@@ -22,9 +23,13 @@ struct FocalLengthEquations {
 /// With which focal length views of one rigid thing fit together.
 struct FocalLengthEstimate {
   double change = 0;  ///< relative to the one that is used: 0.1 where views fit best with one 10 % greater
-  double error = 0;   ///< standard error, by how far the views differ about it; no systematic one
-  int views = 0;      ///< that were compared with the first
-  /// Whether the one that is used is wrong: by more than what noise and a model's drift were seen to feign.
+  /// Standard deviation of what one view tells: by how far they differ, and by the normal equations and the
+  /// distances between the views. More views do not lower it: neighbouring ones err alike, and all of them as
+  /// the first does.
+  double error = 0;
+  int views = 0;  ///< that were compared with the first
+  /// Whether the one that is used is wrong: at least five views say so, by more than 5 % and by more than
+  /// three times the error.
   bool is_wrong() const;
 };
 
@@ -55,10 +60,15 @@ class FocalLengthCheck {
   std::vector<float> sums_;
   Eigen::Vector3d last_axis_ = Eigen::Vector3d::UnitZ();
   int views_ = 0;
-  // Over the views: sums of curvature and gradient, and of their squares and products.
-  double curvature_ = 0, gradient_ = 0;
+  // Over the views: sums of curvature and gradient, and of their squares and products; of mean squared
+  // distances.
+  double curvature_ = 0, gradient_ = 0, variances_ = 0;
   Eigen::Matrix2d products_ = Eigen::Matrix2d::Zero();
 };
+
+/// Which points of two views match: those of ICP's coarsest level, because a wrong focal length parts them by
+/// more than noise does.
+ProjectiveIcpLevel focal_length_limits(const PixelWindow& window);
 
 /// Plain C++ reference of the equations in double, pixel by pixel, about a pivot (mm, the view's frame).
 FocalLengthEquations focal_length_equations_reference(const SurfaceMap& first, const SurfaceMap& view,

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "framework/pose/focal_length.h"
+#include "framework/pose/focal_length_equation.h"
 #include "framework/pose/projective_icp.h"
 #include "framework/pose/rigid_equation.h"
 
@@ -9,7 +10,7 @@ namespace pliant {
 FocalLengthEquations focal_length_equations_reference(const SurfaceMap& first, const SurfaceMap& view,
                                                       const Eigen::Isometry3d& view_from_first,
                                                       const Eigen::Vector3d& pivot) {
-  const ProjectiveIcpLevel limits = levels_of({}, first.window).back();
+  const ProjectiveIcpLevel limits = focal_length_limits(first.window);
   FocalLengthEquations equations;
   equations.motion.pivot = pivot;
   for (std::size_t pixel = 0; pixel < first.window.size(); ++pixel) {
@@ -29,7 +30,7 @@ FocalLengthEquations focal_length_equations_reference(const SurfaceMap& first, c
     Eigen::Matrix<double, 6, 1> J;
     plane_distance_jacobian(lever.data(), own.data(), J.data());
     const double r = plane_distance(away.data(), own.data());
-    const double stretch = own.head<2>().dot(moved.head<2>()) - before.head<2>().dot(p.head<2>());
+    const double stretch = plane_distance_by_focal_length(p.data(), before.data(), moved.data(), own.data());
     equations.motion.JtJ += J * J.transpose();
     equations.motion.Jtr += J * r;
     equations.motion.squares += r * r;
