@@ -29,16 +29,6 @@ cl::Kernel focal_kernel(Device& device) {
   return device.kernel(device.width() == 1 ? scalar : vector, "add_focal_length");
 }
 
-cl_float16 values_of(const Eigen::Isometry3d& motion) {
-  cl_float16 values{};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      values.s[3 * row + column] = static_cast<float>(motion.linear()(row, column));
-    values.s[9 + row] = static_cast<float>(motion.translation()[row]);
-  }
-  return values;
-}
-
 /// Of the points there are, mm.
 Eigen::Vector3d middle_of(const SurfaceMap& map) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -68,7 +58,10 @@ Eigen::Vector2d without_motion(const FocalLengthEquations& equations) {
 
 }  // namespace
 
-ProjectiveIcpLevel focal_length_limits(const PixelWindow& window) { return levels_of({}, window).front(); }
+ProjectiveIcpLevel focal_length_limits(const PixelWindow& window) {
+  constexpr double noise = 6;  // far away; near by it is the 10 mm of ICP, or a nose would match a cheek
+  return levels_of({.noise = noise}, window).back();
+}
 
 bool FocalLengthEstimate::is_wrong() const {
   constexpr int fewest = 5;

@@ -66,8 +66,8 @@ class FocalLengthCheck {
   Eigen::Matrix2d products_ = Eigen::Matrix2d::Zero();
 };
 
-/// Which points of two views match: those of ICP's coarsest level, because a wrong focal length parts them by
-/// more than noise does.
+/// Which points of two views match: as in ICP's finest level, but twice as far apart where depth is noisy,
+/// because a wrong focal length parts what is far away by more than noise does.
 ProjectiveIcpLevel focal_length_limits(const PixelWindow& window);
 
 /// Plain C++ reference of the equations in double, pixel by pixel, about a pivot (mm, the view's frame).

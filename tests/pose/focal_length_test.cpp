@@ -1,9 +1,14 @@
 #include "framework/pose/focal_length.h"
 
+#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "framework/imaging/depth_map.h"
+#include "framework/pose/focal_length_equation.h"
 #include "framework/pose/projective_icp.h"
+#include "framework/pose/rigid_equation.h"
 #include "tests/device/shapes.h"
 #include "tests/pose/lumpy_object.h"
 
@@ -22,6 +27,29 @@ Camera scaled(double factor) {
   wrong.fx *= factor;
   wrong.fy *= factor;
   return wrong;
+}
+
+/// A point at a pixel, with its depth, has the greater an x and y the smaller the focal length is.
+TEST(FocalLengthEquation, DerivativeIsThatOfPointsThatBothViewsBackProject) {
+  using Jet = ceres::Jet<double, 1>;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> side(-100, 100);
+  const auto draw = [&] { return Eigen::Vector3d(side(random), side(random), side(random)); };
+  for (int round = 0; round < 100; ++round) {
+    const Eigen::Vector3d p = draw() + Eigen::Vector3d(0, 0, 600);
+    const Eigen::Vector3d before = draw().normalized();
+    const Eigen::Isometry3d motion = motion_of(20, -30, 10, draw());
+    const Eigen::Vector3d moved = motion * p;
+    const Eigen::Vector3d own = motion.linear() * before;
+    const Jet shrunk = 1.0 / (1.0 + Jet(0, 0));
+    const Eigen::Matrix<Jet, 3, 1> first(p.x() * shrunk, p.y() * shrunk, Jet(p.z()));
+    const Eigen::Matrix<Jet, 3, 1> match(moved.x() * shrunk, moved.y() * shrunk, Jet(moved.z()));
+    const Eigen::Matrix<Jet, 3, 1> away = motion.linear().cast<Jet>() * first - match;
+    const Eigen::Matrix<Jet, 3, 1> normal = own.cast<Jet>();
+    const Jet expected = plane_distance(away.data(), normal.data());
+    EXPECT_NEAR(plane_distance_by_focal_length(p.data(), before.data(), moved.data(), own.data()),
+                expected.v[0], 1e-9);
+  }
 }
 
 class FocalLengthMatching : public testing::TestWithParam<DeviceOptions> {};
@@ -57,8 +85,8 @@ FocalLengthEstimate estimate_with(double factor, const Eigen::Vector3d& axis) {
   Eigen::Isometry3d pose = still;
   for (int turn = 3; turn <= 18; turn += 3) {
     const Eigen::Vector3d by = turn * axis;
-    const SurfaceMap view =
-        make_surface_map(device, DepthMap(seen(motion_of(by.x(), by.y(), by.z(), {0, 0, 0}))), scaled(factor));
+    const SurfaceMap view = make_surface_map(
+        device, DepthMap(seen(motion_of(by.x(), by.y(), by.z(), {0, 0, 0}))), scaled(factor));
     const PoseEstimate found = icp.estimate(first, view, pose);
     EXPECT_FALSE(found.failed) << found.reason;
     pose = found.target_from_source;
@@ -85,10 +113,39 @@ TEST(FocalLengthCheck, IsNotToldByACameraThatTurnsAboutItsAxis) {
   EXPECT_FALSE(estimate.is_wrong());
 }
 
+/// A plane that is stretched is one: some motion explains any focal length.
+TEST(FocalLengthCheck, IsNotToldByAPlane) {
+  Device device;
+  const auto plane = [](const Eigen::Isometry3d& motion) {
+    const Eigen::Hyperplane<double, 3> wall(motion.linear().col(2), motion * test::middle);
+    Frame frame{DepthImage(camera.width, camera.height), {}, {}};
+    for (int v = 0; v < camera.height; ++v)
+      for (int u = 0; u < camera.width; ++u)
+        frame.depth(u, v) =
+            static_cast<float>(-wall.offset() / wall.normal().dot(camera.unproject(u, v, 1.0)));
+    return frame;
+  };
+  const SurfaceMap first = make_surface_map(device, DepthMap(plane(still)), scaled(0.8));
+  FocalLengthCheck check(device, first);
+  for (int turn = 3; turn <= 24; turn += 3) {
+    const Eigen::Isometry3d motion = motion_of(0, turn, 0, {0, 0, 0});
+    check.add(make_surface_map(device, DepthMap(plane(motion)), scaled(0.8)), motion);
+  }
+  EXPECT_EQ(check.estimate().views, 8);
+  EXPECT_FALSE(check.estimate().is_wrong()) << check.estimate().change << " +- " << check.estimate().error;
+}
+
+TEST(FocalLengthEstimate, IsWrongWhereEnoughViewsSayForSureThatItIsFarOff) {
+  EXPECT_TRUE((FocalLengthEstimate{-0.1, 0.03, 5}.is_wrong()));
+  EXPECT_FALSE((FocalLengthEstimate{-0.1, 0.03, 4}.is_wrong())) << "few views";
+  EXPECT_FALSE((FocalLengthEstimate{-0.1, 0.04, 5}.is_wrong())) << "unsure";
+  EXPECT_FALSE((FocalLengthEstimate{-0.04, 0.001, 50}.is_wrong())) << "small";
+}
+
 TEST(FocalLengthCheck, OfNothingIsNoWarning) {
   Device device;
-  const SurfaceMap nothing = make_surface_map(
-      device, DepthMap(Frame{DepthImage(camera.width, camera.height, 0), {}, {}}), camera);
+  const SurfaceMap nothing =
+      make_surface_map(device, DepthMap(Frame{DepthImage(camera.width, camera.height, 0), {}, {}}), camera);
   FocalLengthCheck check(device, nothing);
   check.add(nothing, motion_of(0, 10, 0, {0, 0, 0}));
   EXPECT_EQ(check.estimate().views, 0);

@@ -23,12 +23,11 @@ class TrackerTest : public ExperimentFiles {
   explicit TrackerTest(const std::string& more_data = "frames: " + std::to_string(frames) +
                                                       ", keys: {a: {at: 0}, b: {at: 0.36667, camera: "
                                                       "{look_from: [60, -20, 10]}}}")
-      : values_(
-            plan("", {"data={type: head, image_width: 160, image_height: 120, focal_length: 131.25, " +
-                          more_data + "}",
-                      "model={type: tsdf, volume: fitted, resolution: 96}", "acquisition={filter: none}"})
-                .runs.at(0)
-                .values),
+      : values_(plan("", {"data={type: head, image_width: 160, image_height: 120, focal_length: 131.25, " +
+                              more_data + "}",
+                          "model={type: tsdf, volume: fitted, resolution: 96}", "acquisition={filter: none}"})
+                    .runs.at(0)
+                    .values),
         method_(make_tracking_method(values_, registry_)),
         stream_(registry_.make<FrameSource>(values_.section("data"))->open(device_, 1)) {
     while (auto frame = stream_->next()) seen_.push_back(*std::move(frame));
@@ -197,6 +196,17 @@ class TrackerFocalLength : public TrackerTest {
     return tracker.focal_length();
   }
 };
+
+/// Might register any frame.
+class Deforming : public Policy {
+ public:
+  bool registers(const PolicyInput& /*input*/) const override { return false; }
+};
+
+TEST_F(TrackerFocalLength, IsNotToldByWhatMayDeform) {
+  method_.policy = std::make_unique<Deforming>();
+  EXPECT_EQ(estimate_with(0.85).views, 0);
+}
 
 TEST_F(TrackerFocalLength, IsToldWhereItIsWrong) {
   const FocalLengthEstimate right = estimate_with(1);
