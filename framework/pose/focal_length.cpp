@@ -76,6 +76,9 @@ FocalLengthCheck::FocalLengthCheck(Device& device, const SurfaceMap& first)
       middle_(middle_of(first)),
       partials_(focal_sums * static_cast<std::size_t>(first.window.height)),
       sums_(partials_.size()) {
+  // No later frame asks the device for memory.
+  first_.points().device(device);
+  first_.normals().device(device);
   partials_.write_device(device);
 }
 

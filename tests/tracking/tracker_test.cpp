@@ -180,7 +180,7 @@ class TrackerFocalLength : public TrackerTest {
  protected:
   TrackerFocalLength()
       : TrackerTest(
-            "distance: 700, sensor: {axial: 1, quantisation: 1}, frames: 31, keys: {a: {at: 0}, b: {at: 1, "
+            "distance: 700, frames: 31, keys: {a: {at: 0}, b: {at: 1, "
             "camera: {look_from: [-220, 60, 40]}}}") {}
 
   FocalLengthEstimate estimate_with(double factor) {
