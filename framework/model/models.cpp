@@ -58,7 +58,7 @@ void register_models(Registry& registry) {
               .unit("voxel")
               .range(2, 100)
               .doc("How far from the surface distances are known"),
-          real("least_truncation", 10)
+          real("least_truncation", 6)
               .unit("mm")
               .range(0, 1000)
               .doc("As far at least; more than three times the noise of depth, which else tears the surface"),
