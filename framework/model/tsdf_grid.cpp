@@ -87,7 +87,8 @@ TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin,
       ((greatest - least).array() + 2 * margin * longest).max(2 * truncation.of(voxel)).matrix();
   const Eigen::Vector3i size = whole_bricks((side / voxel).array() - 1e-6);
   const Eigen::Vector3d middle = (least + greatest) / 2;
-  return {size, middle - (size.cast<double>().array() - 1).matrix() * (voxel / 2), voxel, truncation.of(voxel)};
+  return {size, middle - (size.cast<double>().array() - 1).matrix() * (voxel / 2), voxel,
+          truncation.of(voxel)};
 }
 
 std::string with_tsdf_grid(std::string_view source) {

@@ -41,7 +41,7 @@ cl_float16 rows_of(const Eigen::Affine3d& transform);
 /// How far from the surface distances are known: so many voxels, and so many mm at least.
 struct TruncationBand {
   double voxels = 0;
-  double least = 0;  ///< mm
+  double least = 0;                                                          ///< mm
   double of(double voxel) const { return std::max(voxels * voxel, least); }  ///< mm
 };
 
@@ -53,8 +53,7 @@ TsdfGrid grid_before_camera(int resolution, double side, double distance, const 
 /// that longest side has `resolution` voxels. The hundredth of the points that lies farthest out along an
 /// axis is not waited for: a few wrong ones among those would take the voxels from the rest. Throws DataError
 /// where there is no point. Waits for the device.
-TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin,
-                     const TruncationBand& truncation);
+TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, const TruncationBand& truncation);
 
 /// `source` behind lanes.cl, surface_map.cl and tsdf_grid.cl: what kernels over such grids share.
 std::string with_tsdf_grid(std::string_view source);
