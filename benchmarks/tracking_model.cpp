@@ -30,9 +30,10 @@ Frame tracked(const Frame& frame, const TrackedImages& images) {
 
 TsdfGrid grid_for(Device& device, const TrackedImages& images) {
   const Camera& camera = images.rig.depth;
-  if (images.region == whole_image(camera)) return grid_before_camera(resolution, side, distance, truncation);
+  if (images.region == whole_image(camera))
+    return grid_before_camera(resolution, side, distance, {truncation});
   const DepthMap seen(tracked(images.before, images));
-  return grid_around(make_surface_map(device, seen, camera), resolution, margin, truncation);
+  return grid_around(make_surface_map(device, seen, camera), resolution, margin, {truncation});
 }
 
 struct Ours {

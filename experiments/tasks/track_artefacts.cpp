@@ -35,6 +35,8 @@ ordered_json run_json(const ExperimentRun& run, const TrackSummary& summary, con
                           {"point_error_moving", summary.mean(&FrameFigures::moving_error)}});
   if (const auto& error = end.model_error)
     json["truth"].update({{"model_mean", error->mean}, {"model_p95", error->p95}});
+  if (const FocalLengthEstimate& focal = end.focal_length; focal.views > 0)
+    json["focal_length"] = {{"change", focal.change}, {"error", focal.error}, {"views", focal.views}};
   return json;
 }
 

@@ -8,6 +8,7 @@
 #include "experiments/report/artefacts.h"
 #include "experiments/tasks/task.h"
 #include "experiments/tasks/track_summary.h"
+#include "framework/pose/focal_length.h"
 
 namespace pliant {
 
@@ -17,6 +18,7 @@ struct TrackEnd {
   std::string error = {};             ///< what broke it; empty: it ended, or was ended
   bool is_ended = false;              ///< whether somebody ended it before the stream did
   std::optional<ModelError> model_error = {};
+  FocalLengthEstimate focal_length = {};
 };
 
 /// What there is to show of frames that were tracked.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -55,6 +56,14 @@ class FollowedTruth {
   std::optional<PointTruth> truth_;
 };
 
+std::string focal_length_warning(const FocalLengthEstimate& estimate) {
+  return fmt::format(
+      "{} views fit together best with a focal length that is {:.0f} % {} (give or take {:.0f} %): the "
+      "intrinsics are wrong, or what was tracked is not rigid; calibrate the camera",
+      estimate.views, 100 * std::abs(estimate.change), estimate.change > 0 ? "greater" : "smaller",
+      100 * estimate.error);
+}
+
 class TrackTask : public Task {
  public:
   bool can_end_early() const override { return true; }
@@ -101,6 +110,8 @@ class TrackTask : public Task {
       if (tracker.has_model()) {
         model = tracker.model().mesh();
         end.model_error = truth.error_of(model, static_cast<int>(summary.frames.size()));
+        end.focal_length = tracker.focal_length();
+        if (end.focal_length.is_wrong()) end.warnings.push_back(focal_length_warning(end.focal_length));
         write_model(model, making.folder, files);
       }
       RunArtefacts made = track_artefacts(run, summary, end);

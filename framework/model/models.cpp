@@ -16,7 +16,7 @@ class TsdfKind : public ModelKind {
         size_(section.real("size")),
         distance_(section.real("distance")),
         margin_(section.real("margin")),
-        truncation_(section.real("truncation")),
+        truncation_{section.real("truncation"), section.real("least_truncation")},
         max_weight_(static_cast<int>(section.integer("max_weight"))) {
     if (resolution_ % TsdfGrid::brick_width != 0)
       throw ConfigError(fmt::format("{}: resolution: {} is no multiple of {}", section.place(), resolution_,
@@ -32,7 +32,8 @@ class TsdfKind : public ModelKind {
  private:
   int resolution_;
   bool is_fitted_;
-  double size_, distance_, margin_, truncation_;
+  double size_, distance_, margin_;
+  TruncationBand truncation_;
   int max_weight_;
 };
 
@@ -56,7 +57,11 @@ void register_models(Registry& registry) {
           real("truncation", 5)
               .unit("voxel")
               .range(2, 100)
-              .doc("How far from the surface distances are known; more than three times the noise of depth"),
+              .doc("How far from the surface distances are known"),
+          real("least_truncation", 6)
+              .unit("mm")
+              .range(0, 1000)
+              .doc("As far at least; more than three times the noise of depth, which else tears the surface"),
           integer("max_weight", 64)
               .range(1, Tsdf::greatest_weight)
               .doc("Frames after which later ones weigh as if there had been no more"),

@@ -54,14 +54,17 @@ cl_float16 rows_of(const Eigen::Affine3d& transform) {
   return rows;
 }
 
-TsdfGrid grid_before_camera(int resolution, double side, double distance, double truncation) {
+TsdfGrid grid_before_camera(int resolution, double side, double distance, const TruncationBand& truncation) {
   const double voxel = side / resolution;
   const double first = (voxel - side) / 2;
-  return {
-      Eigen::Vector3i::Constant(resolution), {first, first, distance + voxel / 2}, voxel, truncation * voxel};
+  return {Eigen::Vector3i::Constant(resolution),
+          {first, first, distance + voxel / 2},
+          voxel,
+          truncation.of(voxel)};
 }
 
-TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, double truncation) {
+TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin,
+                     const TruncationBand& truncation) {
   std::array<std::vector<float>, 3> values;
   for (std::size_t i = 0; i < seen.window.size(); ++i) {
     const Eigen::Vector3f point = finite_or_none(seen.points(), i);
@@ -76,14 +79,16 @@ TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, doub
     least[axis] = extent.least;
     greatest[axis] = extent.greatest;
   }
-  // A single point has no extent: then the grid has a side of a millimetre.
-  const double longest = std::max((greatest - least).maxCoeff(), 1 / (1 + 2 * margin));
+  // A single point has no extent: then the grid has a side of a millimetre, or as long as the band is thick.
+  const double shortest = std::max(1.0, 2 * truncation.least) / (1 + 2 * margin);
+  const double longest = std::max((greatest - least).maxCoeff(), shortest);
   const double voxel = longest * (1 + 2 * margin) / resolution;
   const Eigen::Vector3d side =
-      ((greatest - least).array() + 2 * margin * longest).max(2 * truncation * voxel).matrix();
+      ((greatest - least).array() + 2 * margin * longest).max(2 * truncation.of(voxel)).matrix();
   const Eigen::Vector3i size = whole_bricks((side / voxel).array() - 1e-6);
   const Eigen::Vector3d middle = (least + greatest) / 2;
-  return {size, middle - (size.cast<double>().array() - 1).matrix() * (voxel / 2), voxel, truncation * voxel};
+  return {size, middle - (size.cast<double>().array() - 1).matrix() * (voxel / 2), voxel,
+          truncation.of(voxel)};
 }
 
 std::string with_tsdf_grid(std::string_view source) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -37,15 +38,22 @@ struct TsdfGrid {
 /// The rows of a transform one after another, as kernels and their references take it.
 cl_float16 rows_of(const Eigen::Affine3d& transform);
 
+/// How far from the surface distances are known: so many voxels, and so many mm at least.
+struct TruncationBand {
+  double voxels = 0;
+  double least = 0;                                                          ///< mm
+  double of(double voxel) const { return std::max(voxels * voxel, least); }  ///< mm
+};
+
 /// A cube of `side` mm and `resolution` voxels before the first camera, on its axis, from `distance` mm on.
-/// `resolution`: a multiple of TsdfGrid::brick_width. `truncation` in voxels, here and below.
-TsdfGrid grid_before_camera(int resolution, double side, double distance, double truncation);
+/// `resolution`: a multiple of TsdfGrid::brick_width.
+TsdfGrid grid_before_camera(int resolution, double side, double distance, const TruncationBand& truncation);
 
 /// The smallest grid around the points of a surface and `margin` times their longest extent on each side;
 /// that longest side has `resolution` voxels. The hundredth of the points that lies farthest out along an
 /// axis is not waited for: a few wrong ones among those would take the voxels from the rest. Throws DataError
 /// where there is no point. Waits for the device.
-TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, double truncation);
+TsdfGrid grid_around(const SurfaceMap& seen, int resolution, double margin, const TruncationBand& truncation);
 
 /// `source` behind lanes.cl, surface_map.cl and tsdf_grid.cl: what kernels over such grids share.
 std::string with_tsdf_grid(std::string_view source);

@@ -37,16 +37,6 @@ cl::Kernel icp_kernel(Device& device, const std::string& name) {
   return device.kernel(device.width() == 1 ? scalar : vector, name);
 }
 
-cl_float16 values_of(const Eigen::Isometry3d& motion) {
-  cl_float16 values{};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      values.s[3 * row + column] = static_cast<float>(motion.linear()(row, column));
-    values.s[9 + row] = static_cast<float>(motion.translation()[row]);
-  }
-  return values;
-}
-
 /// Why a pose is no answer; empty when it is one.
 std::string complaint(const PoseEstimate& estimate, const ProjectiveIcpState& state,
                       const Eigen::Isometry3d& start, const ProjectiveIcpOptions& options) {

@@ -34,6 +34,16 @@ RigidEquations read_equations(const float* sums) {
   return equations;
 }
 
+cl_float16 values_of(const Eigen::Isometry3d& motion) {
+  cl_float16 values{};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      values.s[3 * row + column] = static_cast<float>(motion.linear()(row, column));
+    values.s[9 + row] = static_cast<float>(motion.translation()[row]);
+  }
+  return values;
+}
+
 std::string with_rigid_step(int width, std::string_view source) {
   const std::string real = width == 1 ? "float" : "float16";
   return with_surface_map(as_opencl(embedded::framework_pose_rigid_equation_h, real) +

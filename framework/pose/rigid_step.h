@@ -1,9 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <string>
 #include <string_view>
+
+#include "framework/device/device.h"
 
 namespace pliant {
 
@@ -30,6 +32,9 @@ inline constexpr std::size_t rigid_sums = 32;
 
 /// What they say; the pivot is not among them.
 RigidEquations read_equations(const float* sums);
+
+/// The rows of a rotation, then the shift (mm), as kernels take a motion.
+cl_float16 values_of(const Eigen::Isometry3d& motion);
 
 /// `source` behind lanes.cl, surface_map.cl, rigid_equation.h and rigid_step.cl, for vectors of that width.
 std::string with_rigid_step(int width, std::string_view source);

@@ -8,6 +8,7 @@ namespace {
 class RigidOnly : public Policy {
  public:
   bool registers(const PolicyInput&) const override { return false; }
+  bool is_rigid() const override { return true; }
 };
 
 class EveryN : public Policy {

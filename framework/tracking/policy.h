@@ -25,6 +25,8 @@ class Policy {
   static constexpr const char* kind = "policy";
   virtual ~Policy() = default;
   virtual bool registers(const PolicyInput& input) const = 0;
+  /// Whether it never does: the model is taken to be rigid.
+  virtual bool is_rigid() const { return false; }
 };
 
 /// Adds `rigid_only`, `every_n` and `adaptive`.

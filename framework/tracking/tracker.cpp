@@ -106,6 +106,7 @@ void Tracker::preprocess(const Frame& frame) {
 void Tracker::begin_model(FrameRecord& record) {
   auto model = method_.update->make(device_, method_.model->make(device_, seen()));
   fuse_into(*model);
+  if (!method_.policy || method_.policy->is_rigid()) focal_length_.emplace(device_, seen());
   model_ = std::move(model);
   first_window_ = seen().window;
   record.state = FrameState::started;
@@ -120,6 +121,7 @@ void Tracker::follow(const Frame& frame, FrameRecord& record) {
   record.reason = record.pose.reason;
   if (record.pose.failed) return;
   camera_from_model_ = record.pose.target_from_source * camera_from_model_;
+  if (focal_length_) focal_length_->add(seen(), camera_from_model_);
   register_model(record);
   fuse_into(*model_);
   if (followed_pixels_.empty() && method_.followed.from > 0 && count_ >= method_.followed.from)

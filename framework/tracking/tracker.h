@@ -8,6 +8,7 @@
 #include "framework/geometry/frame.h"
 #include "framework/geometry/rig.h"
 #include "framework/imaging/preprocessor.h"
+#include "framework/pose/focal_length.h"
 #include "framework/tracking/followed_window.h"
 #include "framework/tracking/frame_record.h"
 #include "framework/tracking/model_registration.h"
@@ -45,6 +46,11 @@ class Tracker {
   /// Of the points that are followed, the pixel of the frame that began the model where each was seen; none
   /// before they are chosen. The model tells where they are.
   const std::vector<Eigen::Vector2i>& followed_pixels() const { return followed_pixels_; }
+  /// With which focal length of the depth camera the tracked frames fit together. Of no view where a policy
+  /// deforms the model: what deforms is no measure of the camera.
+  FocalLengthEstimate focal_length() const {
+    return focal_length_ ? focal_length_->estimate() : FocalLengthEstimate{};
+  }
 
  private:
   bool find_object(const Frame& frame, FrameRecord& record);
@@ -81,6 +87,7 @@ class Tracker {
   SurfaceMap moved_view_;     // to the pose of the frame
   PixelWindow first_window_;  // of the frame that began the model
   std::vector<Eigen::Vector2i> followed_pixels_;
+  std::optional<FocalLengthCheck> focal_length_;  // once there is a model, of what is rigid
   Eigen::Isometry3d camera_from_model_ = Eigen::Isometry3d::Identity();
   int count_ = 0;  // of frames
 };

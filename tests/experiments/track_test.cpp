@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "experiments/datasets/frame_source.h"
 #include "experiments/runner/overview.h"
 #include "experiments/runner/runner.h"
 #include "experiments/tasks/json_file.h"
@@ -254,6 +255,27 @@ TEST_F(TrackTest, WhatBreaksAStreamLeavesTheFramesBefore) {
   EXPECT_EQ(run["frames"], 2);
   EXPECT_THAT(run["broken_by"], HasSubstr("000002.png"));
   EXPECT_THROW(check_ends(result_), DataError);
+}
+
+TEST_F(TrackTest, AWrongFocalLengthIsAWarningWithTheFigure) {
+  fs::create_directories(file("frames/depth"));
+  const auto values =
+      plan(
+          "data: {type: head, image_width: 160, image_height: 120, focal_length: 131.25, frames: "
+          "21, keys: {a: {at: 0}, b: {at: 0.67, camera: {look_from: [-220, 60, 40]}}}}\n")
+          .runs.at(0)
+          .values;
+  const auto head = registry_.make<FrameSource>(values.section("data"))->open(workbench_.device(values), 1);
+  for (int number = 100; const auto frame = head->next(); ++number)
+    write_depth(file("frames/depth/" + std::to_string(number) + ".png"), frame->depth);
+  const std::string wrong =
+      "model: {type: tsdf, volume: fitted, resolution: 64}\nacquisition: {filter: none}\n"
+      "data: {type: folder, folder: frames, fx: 110, fy: 110, cx: 79.5, cy: 59.5}\n";
+  const ExperimentPlan plan = this->plan(wrong);
+  run_experiment(*make_task(plan.experiment.values), plan, file("out"), workbench_);
+  const auto run = ordered_json::parse(text_of("out/result.json"))["runs"][0];
+  EXPECT_NEAR(run["focal_length"]["change"], 131.25 / 110 - 1, 0.06);
+  EXPECT_THAT(run["warnings"].dump(), HasSubstr("fit together best with a focal length that is"));
 }
 
 TEST_F(TrackTest, ChecksTheFirstFrame) {

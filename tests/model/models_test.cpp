@@ -29,6 +29,7 @@ std::unique_ptr<ModelKind> kind(const std::string& volume, std::int64_t resoluti
                                               {"distance", 500.0},
                                               {"margin", 0.25},
                                               {"truncation", 5.0},
+                                              {"least_truncation", 10.0},
                                               {"max_weight", std::int64_t{64}}},
                                              "tracked.yaml:3:8"));
 }
@@ -37,7 +38,7 @@ TEST(TsdfGrid, IsAroundWhatWasSeen) {
   Device device;
   const Ball ball;
   const TsdfGrid grid =
-      grid_around(seen(device, ball.frame(kCamera, Eigen::Isometry3d::Identity())), 64, 0.25, 5);
+      grid_around(seen(device, ball.frame(kCamera, Eigen::Isometry3d::Identity())), 64, 0.25, {5});
   EXPECT_EQ(grid.size.maxCoeff(), 64);
   EXPECT_EQ(grid.size.x() % TsdfGrid::brick_width, 0);
   EXPECT_LT(grid.size.z(), 64) << "half of the ball is seen";
@@ -54,9 +55,9 @@ TEST(TsdfGrid, DoesNotWaitForAFewPointsFarOut) {
   Device device;
   const Ball ball;
   Frame frame = ball.frame(kCamera, Eigen::Isometry3d::Identity());
-  const TsdfGrid expected = grid_around(seen(device, frame), 64, 0.25, 5);
+  const TsdfGrid expected = grid_around(seen(device, frame), 64, 0.25, {5});
   frame.depth(0, 0) = frame.depth(79, 59) = 5000;
-  const TsdfGrid grid = grid_around(seen(device, frame), 64, 0.25, 5);
+  const TsdfGrid grid = grid_around(seen(device, frame), 64, 0.25, {5});
   EXPECT_NEAR(grid.voxel, expected.voxel, 0.1 * expected.voxel);
 }
 
@@ -64,9 +65,20 @@ TEST(TsdfGrid, IsASmallOneAroundASinglePoint) {
   Device device;
   Frame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
   frame.depth(7, 9) = 800;
-  const TsdfGrid grid = grid_around(seen(device, frame), 32, 0.25, 5);
+  const TsdfGrid grid = grid_around(seen(device, frame), 32, 0.25, {5});
   EXPECT_GT(grid.voxel, 0);
   EXPECT_NEAR(grid.origin.z(), 800, 1);
+}
+
+TEST(TsdfGrid, HasABandOfVoxelsAndOfMillimetresAtLeast) {
+  EXPECT_EQ(grid_before_camera(32, 320, 500, {5, 10}).truncation, 50);
+  EXPECT_EQ(grid_before_camera(512, 512, 500, {5, 10}).truncation, 10);
+  Device device;
+  Frame frame{DepthImage(kCamera.width, kCamera.height), {}, {}};
+  frame.depth(7, 9) = 800;
+  const TsdfGrid grid = grid_around(seen(device, frame), 64, 0.25, {5, 10});
+  EXPECT_EQ(grid.truncation, 10);
+  EXPECT_EQ(grid.size.maxCoeff(), 64) << "what is thinner than the band takes no more room";
 }
 
 TEST(Models, AreFittedOrNot) {

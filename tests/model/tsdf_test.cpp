@@ -111,7 +111,7 @@ TEST(Tsdf, AsksForNoMemoryAfterTheFirstFrame) {
 
 TEST(Tsdf, HasRoomForTheFinestGridInAGibibyte) {
   Device device;
-  Tsdf tsdf(device, grid_before_camera(512, 400, 480, 5), 64);
+  Tsdf tsdf(device, grid_before_camera(512, 400, 480, {5}), 64);
   tsdf.integrate(DepthMap(kBall.frame(kCamera, kStart)), kCamera, kStart);
   EXPECT_GT(seen_points(tsdf).size(), 300U);
   EXPECT_LT(device.counts().allocated_bytes, std::uint64_t{1} << 29);
@@ -135,7 +135,7 @@ TEST(Tsdf, SeesWithFewPixelsAndVoxels) {
 TEST(Tsdf, SaysWhatTheDeviceHasNoRoomFor) {
   Device device;
   const int side = 1 << 13;  // a terabyte
-  EXPECT_THROW(Tsdf(device, grid_before_camera(side, 3000, 500, 5), 64), DeviceError);
+  EXPECT_THROW(Tsdf(device, grid_before_camera(side, 3000, 500, {5}), 64), DeviceError);
 }
 
 TEST(Tsdf, RefusesPosesThatAreNotFinite) {

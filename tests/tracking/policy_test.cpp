@@ -47,7 +47,10 @@ std::vector<int> registered(const Policy& policy, double mean,
 TEST_F(PolicyTest, IsNoneUnlessAsked) { EXPECT_EQ(method_with("seed=1").policy, nullptr); }
 
 TEST_F(PolicyTest, RigidOnlyNeverRegisters) {
-  EXPECT_THAT(registered(*method_with("policy=rigid_only").policy, 100), ElementsAre());
+  const auto method = method_with("policy=rigid_only");
+  EXPECT_THAT(registered(*method.policy, 100), ElementsAre());
+  EXPECT_TRUE(method.policy->is_rigid());
+  EXPECT_FALSE(method_with("policy=adaptive").policy->is_rigid());
 }
 
 TEST_F(PolicyTest, EveryNRegistersEveryNthFrameWhateverTheError) {

@@ -20,16 +20,14 @@ class TrackerTest : public ExperimentFiles {
  protected:
   static constexpr int frames = 12;
 
-  TrackerTest()
-      : values_(
-            plan("",
-                 {"data={type: head, image_width: 160, image_height: 120, focal_length: 131.25, frames: " +
-                      std::to_string(frames) +
-                      ", keys: {a: {at: 0}, b: {at: 0.36667, camera: "
-                      "{look_from: [60, -20, 10]}}}}",
-                  "model={type: tsdf, volume: fitted, resolution: 96}", "acquisition={filter: none}"})
-                .runs.at(0)
-                .values),
+  explicit TrackerTest(const std::string& more_data = "frames: " + std::to_string(frames) +
+                                                      ", keys: {a: {at: 0}, b: {at: 0.36667, camera: "
+                                                      "{look_from: [60, -20, 10]}}}")
+      : values_(plan("", {"data={type: head, image_width: 160, image_height: 120, focal_length: 131.25, " +
+                              more_data + "}",
+                          "model={type: tsdf, volume: fitted, resolution: 96}", "acquisition={filter: none}"})
+                    .runs.at(0)
+                    .values),
         method_(make_tracking_method(values_, registry_)),
         stream_(registry_.make<FrameSource>(values_.section("data"))->open(device_, 1)) {
     while (auto frame = stream_->next()) seen_.push_back(*std::move(frame));
@@ -175,6 +173,50 @@ TEST_F(TrackerTest, TenThousandFramesTakeNoMoreMemoryThanAHundred) {
   EXPECT_EQ(lost, 0);
   EXPECT_EQ(device_.counts().allocations, allocations);
   EXPECT_LT(host_bytes(), bytes + (1 << 20)) << "a hundred bytes a frame would be as much";
+}
+
+/// The camera goes farther around the head.
+class TrackerFocalLength : public TrackerTest {
+ protected:
+  TrackerFocalLength()
+      : TrackerTest(
+            "distance: 700, frames: 31, keys: {a: {at: 0}, b: {at: 1, "
+            "camera: {look_from: [-220, 60, 40]}}}") {}
+
+  FocalLengthEstimate estimate_with(double factor) {
+    Rig rig = stream_->rig();
+    rig.color.reset();
+    rig.depth.fx *= factor;
+    rig.depth.fy *= factor;
+    Tracker tracker(method_, rig, device_);
+    for (Frame& frame : seen_) {
+      frame.color = {};
+      EXPECT_NE(tracker.track(frame).state, FrameState::lost) << factor;
+    }
+    return tracker.focal_length();
+  }
+};
+
+/// Might register any frame.
+class Deforming : public Policy {
+ public:
+  bool registers(const PolicyInput& /*input*/) const override { return false; }
+};
+
+TEST_F(TrackerFocalLength, IsNotToldByWhatMayDeform) {
+  method_.policy = std::make_unique<Deforming>();
+  EXPECT_EQ(estimate_with(0.85).views, 0);
+}
+
+TEST_F(TrackerFocalLength, IsToldWhereItIsWrong) {
+  const FocalLengthEstimate right = estimate_with(1);
+  EXPECT_FALSE(right.is_wrong()) << right.change << " +- " << right.error;
+  EXPECT_NEAR(right.change, 0, 0.03);
+  for (const double factor : {0.85, 1.15}) {
+    const FocalLengthEstimate wrong = estimate_with(factor);
+    EXPECT_TRUE(wrong.is_wrong()) << factor << ": " << wrong.change << " +- " << wrong.error;
+    EXPECT_NEAR(wrong.change, 1 / factor - 1, 0.06) << factor;
+  }
 }
 
 }  // namespace
