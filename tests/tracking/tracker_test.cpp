@@ -12,8 +12,6 @@
 namespace pliant::testing {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::Each;
 using ::testing::HasSubstr;
 
 class TrackerTest : public ExperimentFiles {
