@@ -32,13 +32,14 @@ std::vector<std::string> sequences(bool is_quick) {
 /// The sequence by each policy.
 std::vector<ExperimentRun> runs_of(const std::string& sequence, const Registry& registry) {
   const std::string text = fmt::format(
-      "extends: methods/tracked.yaml\n"
+      "extends: methods/{1}.yaml\n"
       "runs:\n"
       "  rigid_only: {{extends: data/{0}.yaml, policy: rigid_only}}\n"
-      "  adaptive: {{extends: data/{0}.yaml, policy: adaptive}}\n"
+      "  adaptive: {{extends: data/{0}.yaml, policy: {{type: adaptive}}}}\n"
       "  adaptive_reintegration:\n"
-      "    {{extends: data/{0}.yaml, policy: adaptive, update: {{type: reintegration, weight: 255}}}}\n",
-      sequence);
+      "    {{extends: data/{0}.yaml, policy: {{type: adaptive}}, update: {{type: reintegration, weight: "
+      "255}}}}\n",
+      sequence, sequence == "body" ? "tracked_body" : "tracked");
   return plan_experiment({ConfigText{text, "the policies", experiments_folder() / "chapter6"}, {}, {}},
                          registry)
       .runs;
