@@ -54,6 +54,15 @@ Table stages_table(const ordered_json& run) {
   return table;
 }
 
+/// Of a run that tracked a stream.
+Table tracking_table(const ordered_json& run) {
+  ordered_json facts;
+  for (const char* key : {"frames", "tracked", "lost", "registered", "rejected", "mean_error", "error_mean",
+                          "error_sd", "frame_ms"})
+    if (run.contains(key)) facts[key] = run[key];
+  return facts_table("Tracking", facts);
+}
+
 Chart energy_chart(const ordered_json& energy) {
   Series series{"Energy", "iteration", "energy", {energy.at("initial").get<double>()}};
   for (const auto& value : energy.at("per_iteration")) series.values.push_back(value.get<double>());
@@ -69,9 +78,10 @@ Chart residual_chart(const ordered_json& history) {
 Study study_of_run(const ordered_json& run, const fs::path& folder) {
   Study study;
   study.name = study.title = run.at("name").get<std::string>();
-  study.tables.push_back(stages_table(run));
+  study.tables.push_back(run.contains("metrics") ? stages_table(run) : tracking_table(run));
   for (const auto& [key, title] : {std::pair("counts", "Counts"), std::pair("time_ms", "Time in ms"),
-                                   std::pair("solver", "Solver"), std::pair("alignment", "Alignment")})
+                                   std::pair("solver", "Solver"), std::pair("alignment", "Alignment"),
+                                   std::pair("truth", "Truth"), std::pair("focal_length", "Focal length")})
     if (run.contains(key)) study.tables.push_back(facts_table(title, run[key]));
   if (run.contains("energy")) study.charts.push_back(energy_chart(run["energy"]));
   if (run.contains("history")) study.charts.push_back(residual_chart(run["history"]));

@@ -18,16 +18,17 @@ ordered_json run_json(const ExperimentRun& run, const TrackSummary& summary, con
                        {"tracked", summary.count(FrameState::tracked)},
                        {"lost", summary.count(FrameState::lost)},
                        {"relocalized", summary.relocalized},
-                       {"mean_error", summary.mean(&FrameFigures::mean_error)},
-                       {"rigid_error_mean", summary.mean(&FrameFigures::rigid_error)},
-                       {"error_mean", summary.mean(&FrameFigures::error)},
-                       {"error_sd", summary.mean(&FrameFigures::deviation)},
                        {"registered", summary.count(&FrameFigures::is_registered)},
                        {"rejected", summary.count(&FrameFigures::is_rejected)},
                        {"warnings", end.warnings},
                        {"broken_by", end.error},
                        {"frame_ms", summary.mean_ms()},
                        {"time_ms", summary.time_ms}};
+  if (summary.count(FrameState::tracked) > 0)
+    json.update({{"mean_error", summary.mean(&FrameFigures::mean_error)},
+                 {"rigid_error_mean", summary.mean(&FrameFigures::rigid_error)},
+                 {"error_mean", summary.mean(&FrameFigures::error)},
+                 {"error_sd", summary.mean(&FrameFigures::deviation)}});
   if (const auto rmse = summary.rmse())
     json["truth"] = {{"ate_translation", rmse->translation}, {"ate_rotation", rmse->rotation}};
   if (summary.knows(&FrameFigures::point_error))
@@ -46,14 +47,15 @@ Table summary_table(const std::string& name, const TrackSummary& summary, const 
     return is_known ? fmt::format(fmt::runtime(format), value) : "unknown";
   };
   const PoseError error = rmse.value_or(PoseError{});
+  const bool is_tracked = summary.count(FrameState::tracked) > 0;
   return {"",
           {"run", "frames", "tracked", "lost", "registered", "error mm", "SD mm", "ATE mm", "ATE degrees",
            "model mm", "frame ms", "frames/s"},
           {{{name, std::to_string(summary.frames.size()), std::to_string(summary.count(FrameState::tracked)),
              std::to_string(summary.count(FrameState::lost)),
              std::to_string(summary.count(&FrameFigures::is_registered)),
-             fmt::format("{:.2f}", summary.mean(&FrameFigures::error)),
-             fmt::format("{:.2f}", summary.mean(&FrameFigures::deviation)),
+             known(is_tracked, "{:.2f}", summary.mean(&FrameFigures::error)),
+             known(is_tracked, "{:.2f}", summary.mean(&FrameFigures::deviation)),
              known(rmse.has_value(), "{:.2f}", error.translation),
              known(rmse.has_value(), "{:.3f}", error.rotation),
              known(end.model_error.has_value(), "{:.2f}", end.model_error.value_or(ModelError{}).mean),

@@ -109,7 +109,9 @@ void TrackPictures::add_to(RunArtefacts& made, Mesh model) const {
     const auto files = tracks_->finish();
     made.files.insert(made.files.end(), files.begin(), files.end());
     if (files.empty())
-      made.notes.emplace_back("no tracks are written: the frames ended before points were followed");
+      made.notes.emplace_back(
+          "no tracks are written: no frame was tracked from which points are followed, or no point of their "
+          "grid is on the model");
   }
   if (video_) made.files.push_back(video_file_);
   if (errors_ && !errors_->empty())

@@ -64,7 +64,7 @@ std::string why_rejected(const RegistrationRecord& registration, const TrackingE
     return fmt::format("{} cells of the surface are folded", registration.folded_cells);
   if (after.matched < least_kept_matches * before.matched)
     return fmt::format("only {} of {} points would still match", after.matched, before.matched);
-  if (!(after.mean <= (1 - min_gain) * before.mean))
+  if (!(after.mean < (1 - min_gain) * before.mean))  // not where nothing is matched, either
     return fmt::format("the error would go from {:.3f} to {:.3f} mm", before.mean, after.mean);
   return {};
 }

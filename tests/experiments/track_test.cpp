@@ -62,6 +62,14 @@ TEST_F(TrackTest, TellsOfEveryFrameAndWritesModelAndTrajectory) {
   EXPECT_THAT(text_of("out/index.html"), HasSubstr("Error of rigid tracking"));
 }
 
+TEST_F(TrackTest, OfNothingThatIsTrackedNoErrorIsTold) {
+  const ordered_json run = track("model: {type: tsdf, volume: scene, distance: 1000000}\n" +
+                                 tracked_head.substr(tracked_head.find("acquisition")));
+  EXPECT_EQ(run["tracked"], 0);
+  EXPECT_EQ(run["lost"], 6);
+  for (const char* key : {"mean_error", "error_mean", "error_sd"}) EXPECT_FALSE(run.contains(key)) << key;
+}
+
 TEST_F(TrackTest, EndsEarlyWithWhatThereIs) {
   RunOptions options;
   options.is_ended = [asked = 0]() mutable { return ++asked > 4; };  // also before the run

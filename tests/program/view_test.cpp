@@ -58,6 +58,17 @@ TEST_F(ViewTest, MakesAPageOfWhatIsStoredWhereThereIsNone) {
   EXPECT_THAT(text_of("made/index.html"), HasSubstr("<title>small - Pliant"));
 }
 
+TEST_F(ViewTest, MakesAPageOfATrackedStreamWhereThereIsNone) {
+  write("head.yaml",
+        "data: {type: head, image_width: 160, image_height: 120, focal_length: 131.25, frames: 3}\n"
+        "model: {type: tsdf, volume: fitted, resolution: 64}\nreports: {}\n");
+  ASSERT_EQ(call("track head.yaml --out made").exit_code, 0);
+  const ProgramRun view = call("view made");
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  const std::string page = text_of("made/index.html");
+  for (const char* text : {"Tracking", "frame_ms", "ate_translation"}) EXPECT_THAT(page, HasSubstr(text));
+}
+
 TEST_F(ViewTest, MakesThePageOfOneRunOfSeveral) {
   make("{}", "runs: {a: , b: }\n");
   const ProgramRun view = call("view made/b");

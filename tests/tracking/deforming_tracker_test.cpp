@@ -129,6 +129,17 @@ TEST_F(DeformingTracker, RejectedRegistrationsLeaveTheModelAsItWas) {
   EXPECT_EQ(rejected.followed, rigid.followed);
 }
 
+TEST_F(DeformingTracker, WithNothingToCompareEveryRegistrationIsRejected) {
+  int rejections = 0;
+  for (const FrameRecord& record :
+       track({"policy={type: every_n, n: 2}", "tracking_error={max_distance: 1e-9}"}).records) {
+    EXPECT_EQ(record.error.matched, 0);
+    EXPECT_FALSE(is_registered(record));
+    rejections += is_rejected(record) ? 1 : 0;
+  }
+  EXPECT_GE(rejections, 2);
+}
+
 TEST_F(DeformingTracker, RigidOnlyTracksAsIfThereWereNoPolicy) {
   const Tracked rigid = track({"policy=rigid_only"});
   const Tracked plain = track({});
