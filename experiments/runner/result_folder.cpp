@@ -129,6 +129,23 @@ bool is_input(const fs::path& file, const Files& inputs) {
   });
 }
 
+/// Removes what is in a folder but for its list, by which it is known for a result's, and those names.
+void clear_but_list(const fs::path& folder, const Files& names) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path name = entry.path().filename();
+    if (name != list_name && std::find(names.begin(), names.end(), name) == names.end())
+      fs::remove_all(entry.path(), ignored);
+  }
+}
+
+/// Whoever is killed in between leaves a folder that is still known for a result's.
+void remove_with_list_last(const fs::path& folder) {
+  std::error_code ignored;
+  clear_but_list(folder, {});
+  fs::remove_all(folder, ignored);
+}
+
 }  // namespace
 
 bool leads_out(const fs::path& file) {
@@ -223,7 +240,7 @@ void ResultFolder::abandon() {
   // Another thread may still be writing into it; it cannot make the folder anew.
   for (int i = 0; i < 200 && !unfinished_.empty() && fs::exists(unfinished_, ignored); ++i) {
     if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    fs::remove_all(unfinished_, ignored);
+    remove_with_list_last(unfinished_);
   }
   if (topmost_made_.empty()) return;
   for (fs::path made = fs::absolute(folder_); fs::remove(made, ignored); made = made.parent_path())
@@ -260,6 +277,7 @@ void ResultFolder::replace_by(Files fresh) const {
   std::stable_partition(fresh.begin(), fresh.end(), [](const fs::path& file) { return !is_crown(file); });
   move_files(folder_, replaced, old);
   move_files(unfinished_, folder_, fresh);
+  clear_but_list(unfinished_, {});
   fs::rename(unfinished_ / list_name, folder_ / list_name);
   remove_empty_folders(folder_, old);
 }
@@ -270,12 +288,7 @@ void ResultFolder::keep_only(const Files& names) {
 }
 
 void ResultFolder::clear_but(const Files& names) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(unfinished_)) {
-    const fs::path name = entry.path().filename();
-    if (name != list_name && std::find(names.begin(), names.end(), name) == names.end())
-      fs::remove_all(entry.path(), ignored);
-  }
+  clear_but_list(unfinished_, names);
   is_kept_ = !names.empty();
 }
 
