@@ -40,6 +40,19 @@ Eigen::Vector3f finite_or_none(const SurfaceMap& map, const Array<float>& vector
   return finite_or_none(vectors, map.window.offset(pixel.x(), pixel.y()));
 }
 
+std::optional<Eigen::Vector3d> middle_of(const SurfaceMap& map) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (std::size_t pixel = 0; pixel < map.window.size(); ++pixel) {
+    const Eigen::Vector3f point = finite_or_none(map.points(), pixel);
+    if (!(point.z() > 0)) continue;
+    sum += point.cast<double>();
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
 std::optional<Eigen::Vector2i> pixel_reference(const Camera& camera, const Eigen::Vector3f& point) {
   if (!(point.z() > 0)) return std::nullopt;
   const cl_float4 values = pinhole(camera);

@@ -43,6 +43,9 @@ Eigen::Vector3f finite_or_none(const Array<float>& vectors, std::size_t index);
 Eigen::Vector3f finite_or_none(const SurfaceMap& map, const Array<float>& vectors,
                                const Eigen::Vector2i& pixel);
 
+/// The mean of the points there are, mm, camera frame; none without any. Waits for the device.
+std::optional<Eigen::Vector3d> middle_of(const SurfaceMap& map);
+
 /// Plain C++ reference of projection: the pixel that a point (mm, camera frame) projects to; none outside of
 /// the image.
 std::optional<Eigen::Vector2i> pixel_reference(const Camera& camera, const Eigen::Vector3f& point);

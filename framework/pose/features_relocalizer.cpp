@@ -46,18 +46,6 @@ void move(ModelFeatures& features, const Eigen::Isometry3d& motion) {
   for (Eigen::Vector3d& point : features.points) point = motion * point;
 }
 
-std::optional<Eigen::Vector3d> middle_of(const SurfaceMap& seen) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int count = 0;
-  for (std::size_t i = 0; i < seen.window.size(); ++i) {
-    const Eigen::Vector3f point = finite_or_none(seen.points(), i);
-    sum += point.cast<double>();
-    count += point.isZero(0) ? 0 : 1;
-  }
-  if (count == 0) return std::nullopt;
-  return sum / count;
-}
-
 /// Whether the nearest feature is nearer by `ratio` than any that lies elsewhere on the model: the same
 /// place is in many keyframes.
 bool is_distinct(const std::vector<int>& features, const std::vector<float>& squared,

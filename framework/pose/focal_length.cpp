@@ -29,19 +29,6 @@ cl::Kernel focal_kernel(Device& device) {
   return device.kernel(device.width() == 1 ? scalar : vector, "add_focal_length");
 }
 
-/// Of the points there are, mm.
-Eigen::Vector3d middle_of(const SurfaceMap& map) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int count = 0;
-  for (std::size_t pixel = 0; pixel < map.window.size(); ++pixel) {
-    const Eigen::Vector3f p = finite_or_none(map.points(), pixel);
-    if (!(p.z() > 0)) continue;
-    sum += p.cast<double>();
-    ++count;
-  }
-  return count > 0 ? Eigen::Vector3d(sum / count) : sum;
-}
-
 /// Curvature and gradient where each focal length has the motion that suits it best.
 Eigen::Vector2d without_motion(const FocalLengthEquations& equations) {
   constexpr double damping = 1e-5;  // of the mean diagonal: directions that nothing tells
@@ -73,7 +60,7 @@ bool FocalLengthEstimate::is_wrong() const {
 FocalLengthCheck::FocalLengthCheck(Device& device, const SurfaceMap& first)
     : device_(&device),
       first_(first.camera, first.window, {first.points().clone(), first.normals().clone()}),
-      middle_(middle_of(first)),
+      middle_(middle_of(first).value_or(Eigen::Vector3d::Zero())),
       partials_(focal_sums * static_cast<std::size_t>(first.window.height)),
       sums_(partials_.size()) {
   // No later frame asks the device for memory.

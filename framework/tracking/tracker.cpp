@@ -17,18 +17,6 @@ double share_of(const PoseEstimate& pose) {
   return pose.samples > 0 ? static_cast<double>(pose.inliers) / pose.samples : 0;
 }
 
-/// Of what a surface shows, mm; 0 where it shows nothing.
-double mean_depth(const SurfaceMap& seen) {
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < seen.window.size(); ++i) {
-    const double depth = finite_or_none(seen.points(), i).z();
-    sum += depth;
-    count += depth > 0 ? 1 : 0;
-  }
-  return count > 0 ? sum / count : 0;
-}
-
 bool shows_depth(const Frame& frame, const PixelWindow& region) {
   for (int v = region.top; v < region.top + region.height; ++v)
     for (int u = region.left; u < region.left + region.width; ++u)
@@ -200,7 +188,10 @@ void Tracker::remember(const Frame& frame, FrameRecord& record) {
   record.time_ms["keyframe"] += watch.milliseconds();
   if (record.state == FrameState::tracked) usual_share_ = share_of(record.pose);
   if (!region_.mask.empty()) return;
-  if (!window_) window_.emplace(rig_.depth, region_.window, mean_depth(seen()), camera_from_model_);
+  if (!window_) {
+    const double depth = middle_of(seen()).value_or(Eigen::Vector3d::Zero()).z();
+    window_.emplace(rig_.depth, region_.window, depth, camera_from_model_);
+  }
   region_.window = window_->move_to(camera_from_model_);
 }
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <set>
 
 #include "experiments/datasets/frame_source.h"
 #include "framework/tracking/register_pair.h"
+#include "tests/device/host_bytes.h"
 #include "tests/experiments/experiment_files.h"
 
 // Registrations one after the other, as of the frames of a stream, on one device.
@@ -30,7 +30,6 @@ class StreamTest : public ExperimentFiles {
   }
 
   /// Bytes that the host has allocated; 0 where the C library does not tell, as under sanitizers.
-  static std::size_t host_bytes() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
 
   Device device_;
 };
@@ -67,11 +66,11 @@ TEST_F(StreamTest, TenThousandFramesTakeNoMoreMemoryThanAHundred) {
     frames = number;
     if (number != 100) return;
     allocations = device_.counts().allocations;
-    bytes = host_bytes();
+    bytes = test::host_bytes();
   });
   EXPECT_EQ(frames, 10000);
   EXPECT_EQ(device_.counts().allocations, allocations);
-  EXPECT_LT(host_bytes(), bytes + (1 << 20)) << "a hundred bytes a frame would be as much";
+  EXPECT_LT(test::host_bytes(), bytes + (1 << 20)) << "a hundred bytes a frame would be as much";
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 
 #include "framework/model/warp_field.h"
 #include "framework/tracking/tracker.h"
+#include "tests/device/host_bytes.h"
 #include "tests/experiments/experiment_files.h"
 
 // A rippled surface with two hills of which one comes out as the other goes in, and back, for 10,000 frames.
@@ -35,8 +35,6 @@ Frame with_hills(double height) {
   }
   return frame;
 }
-
-std::size_t host_bytes() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
 
 std::size_t node_count(const Tracker& tracker) {
   const auto* const field = dynamic_cast<const WarpField*>(&tracker.model());
@@ -88,13 +86,13 @@ TEST_P(EndlessStream, TenThousandFramesTakeNoMoreMemoryThanSome) {
     if (i >= frames - 1000) registered_at_last += is_registered(record) ? 1 : 0;
     if (i != warm) continue;
     allocations = device_.counts().allocations;
-    bytes = host_bytes();
+    bytes = test::host_bytes();
     nodes = node_count(tracker);
   }
   EXPECT_EQ(lost, 0);
   EXPECT_GE(registered_at_last, 10) << "it is still followed";
   EXPECT_EQ(device_.counts().allocations, allocations);
-  EXPECT_LT(host_bytes(), bytes + (1 << 18)) << "thirty bytes a frame would be more";
+  EXPECT_LT(test::host_bytes(), bytes + (1 << 18)) << "thirty bytes a frame would be more";
   EXPECT_LE(node_count(tracker), nodes + nodes / 10) << "the surface is the same all along";
 }
 

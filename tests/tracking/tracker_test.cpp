@@ -1,11 +1,11 @@
 #include "framework/tracking/tracker.h"
 
 #include <gmock/gmock.h>
-#include <malloc.h>
 
 #include "experiments/datasets/frame_source.h"
 #include "experiments/tasks/track_truth.h"
 #include "framework/core/error.h"
+#include "tests/device/host_bytes.h"
 #include "tests/experiments/experiment_files.h"
 
 // A camera that goes a little around a head, frame by frame.
@@ -133,7 +133,6 @@ TEST_F(TrackerTest, ALeapIsLostAndTheModelStaysAsItWas) {
 
 TEST_F(TrackerTest, AllocatesNothingAfterTheThirdFrameAndNothingGrows) {
   Tracker tracker(method_, stream_->rig(), device_);
-  const auto host_bytes = [] { return mallinfo2().uordblks + mallinfo2().hblkhd; };
   std::uint64_t allocations = 0;
   std::size_t bytes = 0;
   for (int i = 0; i < 300; ++i) {
@@ -141,16 +140,15 @@ TEST_F(TrackerTest, AllocatesNothingAfterTheThirdFrameAndNothingGrows) {
     const int place = i % (2 * frames - 2);
     tracker.track(seen_[static_cast<std::size_t>(place < frames ? place : 2 * frames - 2 - place)]);
     if (i == 2) allocations = device_.counts().allocations;
-    if (i == 50) bytes = host_bytes();
+    if (i == 50) bytes = test::host_bytes();
   }
   EXPECT_EQ(device_.counts().allocations, allocations);
-  EXPECT_LT(host_bytes(), bytes + 25000) << "a hundred bytes a frame would be as much";
+  EXPECT_LT(test::host_bytes(), bytes + 25000) << "a hundred bytes a frame would be as much";
 }
 
 TEST_F(TrackerTest, TenThousandFramesTakeNoMoreMemoryThanAHundred) {
   const Camera small{40, 40, 15.5, 11.5, 32, 24};
   Tracker tracker(method_, Rig{small}, device_);
-  const auto host_bytes = [] { return mallinfo2().uordblks + mallinfo2().hblkhd; };
   std::uint64_t allocations = 0;
   std::size_t bytes = 0;
   int lost = 0;
@@ -165,12 +163,12 @@ TEST_F(TrackerTest, TenThousandFramesTakeNoMoreMemoryThanAHundred) {
     lost += tracker.track(frame).state == FrameState::lost ? 1 : 0;
     if (i == 100) {
       allocations = device_.counts().allocations;
-      bytes = host_bytes();
+      bytes = test::host_bytes();
     }
   }
   EXPECT_EQ(lost, 0);
   EXPECT_EQ(device_.counts().allocations, allocations);
-  EXPECT_LT(host_bytes(), bytes + (1 << 20)) << "a hundred bytes a frame would be as much";
+  EXPECT_LT(test::host_bytes(), bytes + (1 << 20)) << "a hundred bytes a frame would be as much";
 }
 
 /// The camera goes farther around the head.

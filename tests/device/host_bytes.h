@@ -1,0 +1,12 @@
+#pragma once
+
+#include <malloc.h>
+
+#include <cstddef>
+
+namespace pliant::test {
+
+/// What is allocated on the host now.
+inline std::size_t host_bytes() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
+
+}  // namespace pliant::test
