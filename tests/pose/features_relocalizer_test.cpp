@@ -117,7 +117,7 @@ TEST_F(FeaturesRelocalizerTest, NamesNothingWithoutKeyframesOrSurface) {
 }
 
 TEST(Keyframes, AreApartByDistanceOrAngle) {
-  Keyframes keyframes({10, 50, 10 * degree}, test::middle);
+  Keyframes keyframes({10, 50, 10 * degree}, test::middle());
   EXPECT_TRUE(keyframes.wants(first));
   keyframes.add({first, {}, {}});
   EXPECT_FALSE(keyframes.wants(motion_of(0, 9, 0, {49, 0, 0})));
@@ -126,7 +126,7 @@ TEST(Keyframes, AreApartByDistanceOrAngle) {
 }
 
 TEST(Keyframes, TheOlderOfTheNearestTwoGoes) {
-  Keyframes keyframes({3, 50, 10 * degree}, test::middle);
+  Keyframes keyframes({3, 50, 10 * degree}, test::middle());
   for (const double place : {0.0, 500.0, 560.0, 1200.0})
     keyframes.add({motion_of(0, 0, 0, {place, 0, 0}), {}, {}});
   ASSERT_EQ(keyframes.all().size(), 3U);

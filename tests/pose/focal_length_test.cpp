@@ -117,7 +117,7 @@ TEST(FocalLengthCheck, IsNotToldByACameraThatTurnsAboutItsAxis) {
 TEST(FocalLengthCheck, IsNotToldByAPlane) {
   Device device;
   const auto plane = [](const Eigen::Isometry3d& motion) {
-    const Eigen::Hyperplane<double, 3> wall(motion.linear().col(2), motion * test::middle);
+    const Eigen::Hyperplane<double, 3> wall(motion.linear().col(2), motion * test::middle());
     Frame frame{DepthImage(camera.width, camera.height), {}, {}};
     for (int v = 0; v < camera.height; ++v)
       for (int u = 0; u < camera.width; ++u)

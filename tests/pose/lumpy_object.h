@@ -13,7 +13,8 @@ namespace pliant::test {
 
 inline constexpr double degree = std::numbers::pi / 180;
 inline const Camera camera{260, 260, 79.5, 59.5, 160, 120};
-inline const Eigen::Vector3d middle(0, 0, 600);
+/// A function, because constants of the tests are made from it: a variable might be made after them.
+inline Eigen::Vector3d middle() { return {0, 0, 600}; }
 
 /// Where the viewing ray of a pixel first meets the object, none where it does not. The object has three
 /// unlike axes and lumps, so that no turn maps it onto itself.
@@ -25,7 +26,7 @@ inline double inside(const Eigen::Vector3d& p) {
 
 inline Frame seen(const Eigen::Isometry3d& motion, const Camera& by = camera) {
   Frame frame{DepthImage(by.width, by.height), {}, {}};
-  const Eigen::Isometry3d back = Eigen::Translation3d(-middle) * motion.inverse();
+  const Eigen::Isometry3d back = Eigen::Translation3d(-middle()) * motion.inverse();
   for (int v = 0; v < by.height; ++v) {
     for (int u = 0; u < by.width; ++u) {
       const Eigen::Vector3d ray = by.unproject(u, v, 1);
@@ -42,9 +43,9 @@ inline Frame seen(const Eigen::Isometry3d& motion, const Camera& by = camera) {
 }
 
 inline Eigen::Isometry3d motion_of(double x, double y, double z, const Eigen::Vector3d& shift) {
-  return Eigen::Translation3d(middle + shift) * Eigen::AngleAxisd(x * degree, Eigen::Vector3d::UnitX()) *
+  return Eigen::Translation3d(middle() + shift) * Eigen::AngleAxisd(x * degree, Eigen::Vector3d::UnitX()) *
          Eigen::AngleAxisd(y * degree, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(z * degree, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(-middle);
+         Eigen::AngleAxisd(z * degree, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(-middle());
 }
 
 /// Greatest distance between where two motions take the corners of a box around the object, mm.
@@ -52,7 +53,7 @@ inline double difference(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
   double worst = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3d p =
-        middle + 80 * Eigen::Vector3d(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        middle() + 80 * Eigen::Vector3d(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
     worst = std::max(worst, (a * p - b * p).norm());
   }
   return worst;

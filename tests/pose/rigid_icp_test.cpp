@@ -275,7 +275,7 @@ TEST(RigidIcp, OfAPlaneFindsTheDistanceAndSaysThatItMaySlide) {
   const RigidIcpResult result = align(plane(600, 40, 120), plane(620, 40, 120));
   EXPECT_FALSE(result.failed) << result.reason;
   EXPECT_LT(result.conditioning, 1e-6);
-  const Eigen::Vector3d moved = result.pose * middle;
+  const Eigen::Vector3d moved = result.pose * middle();
   EXPECT_NEAR(moved.z(), 620, 0.1);
   EXPECT_LT(moved.head<2>().norm(), 10) << "it does not slide away";
 }
