@@ -1,6 +1,7 @@
 #include "experiments/tasks/track_pictures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <set>
@@ -114,6 +115,9 @@ void TrackPictures::add_to(RunArtefacts& made, Mesh model) const {
           "grid is on the model");
   }
   if (video_) made.files.push_back(video_file_);
+  if (errors_ && !errors_->missing().empty())
+    made.notes.push_back(fmt::format("{}.png does not show frame {}: it did not come, or there was no model",
+                                     errors_name, fmt::join(errors_->missing(), ", ")));
   if (errors_ && !errors_->empty())
     made.pictures.emplace_back(errors_name, "The model and how far chosen frames are from it",
                                [errors = errors_] { return errors->png(); });

@@ -1,6 +1,5 @@
 #include "experiments/view/augmentation_section.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -18,9 +17,7 @@ Eigen::Vector3d vector(const Parameters& section, const char* name) {
 
 Rgb read_color(const Parameters& section) {
   const Eigen::Vector3d color = vector(section, "color");
-  const auto byte = [](double value) {
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
-  };
+  const auto byte = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
   return {byte(color.x()), byte(color.y()), byte(color.z())};
 }
 
@@ -48,6 +45,7 @@ ParameterTable augmentation_table() {
           .unit("degree")
           .doc("how it is turned in that frame about x, then y, then z, from upright and facing the camera"),
       reals("color", 3, std::vector<double>{240, 170, 40})
+          .range(0, 255)
           .doc("red, green and blue, 0 to 255, of an object whose file has no colours but textures"),
       real("reach", 30)
           .unit("mm")

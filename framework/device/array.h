@@ -90,6 +90,10 @@ class Array {
     }
     return buffer_;
   }
+  /// Room for so many values, or more, that a device will write; what is large enough stays as it is.
+  void make_room(std::size_t size) {
+    if (size_ < size) *this = Array(size);
+  }
   /// For kernels that write; the host's copy becomes stale.
   const Buffer& write_device(Device& device) {
     settle();

@@ -83,7 +83,7 @@ Ints is_edge(global const float* pixel, int stride, Lanes z, Ints q, float depth
 // Adds row y of the image to the sums: from `above` to `sums`.
 void sum_row(global const float* depth, int stride, int columns, int y, float depth_change, int coarse_bits,
              local const int* above, local int* sums) {
-  Ints q_before = 0, qu_before = 0, qv_before = 0, cc_before = 0, ce_before = 0;
+  Ints q_before = 0, qu_before = 0, cc_before = 0, ce_before = 0;
   for (int x = 0; x < columns; x += WIDTH) {
     global const float* pixel = depth + x;
     const Lanes z = LOAD(pixel);
@@ -92,12 +92,11 @@ void sum_row(global const float* depth, int stride, int columns, int y, float de
     const Ints edge = is_edge(pixel, stride, z, q, depth_change);
     q_before = running(q, q_before);
     qu_before = running(q * (x + INT_OFFSETS), qu_before);
-    qv_before = running(q * y, qv_before);
     cc_before = running(coarse * coarse, cc_before);
     ce_before = running((coarse << COUNT_BITS) + edge, ce_before);
     STORE_INTS(LOAD_INTS(above + x) + q_before, sums + x);
     STORE_INTS(LOAD_INTS(above + x + SUM_STRIDE) + qu_before, sums + x + SUM_STRIDE);
-    STORE_INTS(LOAD_INTS(above + x + 2 * SUM_STRIDE) + qv_before, sums + x + 2 * SUM_STRIDE);
+    STORE_INTS(LOAD_INTS(above + x + 2 * SUM_STRIDE) + q_before * y, sums + x + 2 * SUM_STRIDE);
     STORE_INTS(LOAD_INTS(above + x + 3 * SUM_STRIDE) + cc_before, sums + x + 3 * SUM_STRIDE);
     STORE_INTS(LOAD_INTS(above + x + 4 * SUM_STRIDE) + ce_before, sums + x + 4 * SUM_STRIDE);
   }

@@ -46,11 +46,6 @@ cl_int4 as_argument(const PixelWindow& window) {
   return {{window.left, window.top, window.width, window.height}};
 }
 
-template <class T>
-void make_room(Array<T>& array, std::size_t size) {
-  if (array.size() < size) array = Array<T>(size);
-}
-
 }  // namespace
 
 Tsdf::Tsdf(Device& device, const TsdfGrid& grid, int max_weight)
@@ -90,7 +85,7 @@ void Tsdf::fuse(const DepthMap& depth, const Camera& camera, const Eigen::Isomet
   const auto truncation = static_cast<float>(grid_.truncation);
   const auto stride = static_cast<cl_int>(depth.stride);
   const std::size_t tiles = tiles_over(window);
-  make_room(bounds_, 2 * tiles);
+  bounds_.make_room(2 * tiles);
   static const std::string fusing = with_lattice(embedded::framework_model_tsdf_fuse_cl);
   auto bound = tsdf_kernel(device_, fusing, "bound_depth");
   auto find = tsdf_kernel(device_, fusing, lattice ? "find_displaced_bricks" : "find_bricks");
@@ -127,7 +122,7 @@ const SurfaceMap& Tsdf::raycast(const Camera& camera, const PixelWindow& window,
   if (window.size() == 0) return view_;
   const PixelWindow area = whole_tiles(window);
   const std::size_t tiles = tiles_over(area);
-  make_room(ranges_, 2 * tiles);
+  ranges_.make_room(2 * tiles);
   const Eigen::Affine3d camera_from_voxel = camera_from_model * grid_.model_from_voxel();
   const cl_float16 back = rows_of(camera_from_voxel);
   static const std::string casting = with_tsdf_grid(embedded::framework_model_tsdf_raycast_cl);

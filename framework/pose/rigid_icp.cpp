@@ -34,11 +34,6 @@ std::size_t chunks_of(int padded, int width) {
   return static_cast<std::size_t>((padded + chunk - 1) / chunk);
 }
 
-/// Room for so many values that a device will write; what is large enough is kept.
-void make_room(Array<float>& array, std::size_t size) {
-  if (array.size() < size) array = Array<float>(size);
-}
-
 cl::Kernel icp_kernel(Device& device, const std::string& name) {
   static const std::string scalar = with_rigid_step(1, embedded::framework_pose_rigid_icp_cl);
   static const std::string vector = with_rigid_step(16, embedded::framework_pose_rigid_icp_cl);
@@ -85,7 +80,7 @@ void RigidIcp::pack(const SeenSurface& surface, int stride, Samples& samples) {
   const auto available = static_cast<int>(surface.pixels.size());
   samples.count = (available + stride - 1) / stride;
   samples.padded = vector_padded(samples.count, device_->width());
-  make_room(samples.values, 6 * static_cast<std::size_t>(samples.padded));
+  samples.values.make_room(6 * static_cast<std::size_t>(samples.padded));
   auto kernel = icp_kernel(*device_, "pack");
   device_->run("icp", kernel, static_cast<std::size_t>(samples.padded), 16, available,
                surface.pixels.device(*device_), stride, surface.map.points().device(*device_),
@@ -100,7 +95,7 @@ void RigidIcp::prepare(const SeenSurface& source, const SeenSurface& target) {
     pack(source, static_cast<int>(std::min<double>(stride, coarsest)), level.samples);
   }
   pack(target, std::max(1, static_cast<int>(target.pixels.size()) / judged_samples), target_samples_);
-  make_room(extents_, 8);
+  extents_.make_room(8);
   const Samples& coarse = levels_.front().samples;
   auto kernel = icp_kernel(*device_, "measure");
   device_->run("icp", kernel, 2, 1, coarse.padded, coarse.values.device(*device_), target_samples_.padded,
@@ -117,7 +112,7 @@ void RigidIcp::set_out(const std::vector<Start>& starts) {
     values.push_back(start.is_centred ? 1.0F : 0.0F);
   }
   starts_ = Array<float>(std::move(values));
-  make_room(poses_, pose_size * starts.size());
+  poses_.make_room(pose_size * starts.size());
   auto kernel = icp_kernel(*device_, "set_out");
   device_->run("icp", kernel, starts.size(), 1, static_cast<cl_int>(starts.size()), starts_.device(*device_),
                extents_.device(*device_), poses_.write_device(*device_));
@@ -127,7 +122,7 @@ void RigidIcp::set_out(const std::vector<Start>& starts) {
 void RigidIcp::accumulate(const Level& level, int number, int poses, const SeenSurface& target) {
   const auto items = static_cast<std::size_t>(poses) * chunks_of(level.samples.padded, device_->width());
   const double angle = level.share * options_.coarse_angle + (1 - level.share) * options_.max_angle;
-  make_room(partials_, rigid_sums * items);
+  partials_.make_room(rigid_sums * items);
   auto kernel = icp_kernel(*device_, "accumulate");
   device_->run("icp", kernel, items, 1, poses, number, level.samples.padded,
                level.samples.values.device(*device_), poses_.device(*device_), extents_.device(*device_),
@@ -159,8 +154,8 @@ void RigidIcp::judge(int poses, const SeenSurface& source, const SeenSurface& ta
   const auto width = device_->width();
   const auto items = static_cast<std::size_t>(poses) *
                      (chunks_of(coarse.padded, width) + chunks_of(target_samples_.padded, width));
-  make_room(judged_, 2 * items);
-  make_room(residuals_, static_cast<std::size_t>(poses));
+  judged_.make_room(2 * items);
+  residuals_.make_room(static_cast<std::size_t>(poses));
   auto judge = icp_kernel(*device_, "judge");
   device_->run("icp", judge, items, 1, poses, coarse.padded, coarse.values.device(*device_),
                target_samples_.padded, target_samples_.values.device(*device_), poses_.device(*device_),
@@ -233,7 +228,7 @@ std::vector<TwoWayResidual> RigidIcp::read_residuals(std::size_t count) {
 }
 
 RigidEquations RigidIcp::read_sums() {
-  make_room(sums_, rigid_sums);
+  sums_.make_room(rigid_sums);
   auto kernel = icp_kernel(*device_, "add_up");
   device_->run("icp", kernel, 1, 1, levels_.back().samples.padded, partials_.device(*device_),
                sums_.write_device(*device_));

@@ -228,6 +228,20 @@ TEST_F(TrackTest, FramesToBeShownAreNumbers) {
   }
 }
 
+TEST_F(TrackTest, FramesToBeShownThatDoNotComeAreTold) {
+  track(tracked_head + "record: {error_at: [3, 40, 50]}\n");
+  EXPECT_THAT(result_.runs.at(0).notes, ::testing::Contains(HasSubstr("does not show frame 40, 50:")));
+}
+
+TEST_F(TrackTest, AColorIsOfBytes) {
+  try {
+    plan(tracked_head + "augmentation: {mesh: box.obj, color: [0, 0, 256]}\n");
+    ADD_FAILURE();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("color"), HasSubstr("255")));
+  }
+}
+
 TEST_F(TrackTest, OfSeveralRunsTheNextIsNotBegunAndNoneTakenForWhole) {
   const std::string two = tracked_head + "runs: {one: {}, two: {}}\nreports: {}\n";
   const ExperimentPlan plan = this->plan(two, {"data.image_width=160", "data.image_height=120"});
