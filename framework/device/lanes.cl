@@ -26,6 +26,9 @@ typedef int Truth;
 #error "WIDTH must be 1 or 16"
 #endif
 
+// Drivers leave functions of many vectors apart, and hand those over through memory.
+#define INLINED static inline __attribute__((always_inline))
+
 #define WHERE(condition, value) select((Lanes)0, value, condition)  // 0 elsewhere
 
 typedef struct {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <vector>
 
 namespace pliant {
@@ -21,9 +22,9 @@ struct Keyframe {
 };
 
 struct KeyframeOptions {
-  int most = 20;         ///< at least 2
-  double distance = 80;  ///< mm
-  double angle = 0.21;   ///< radians
+  int most = 20;                         ///< at least 2
+  double distance = 80;                  ///< mm
+  double angle = std::numbers::pi / 15;  ///< radians (12 degrees)
 };
 
 /// The keyframes of a model: from one to the next its middle moved, or turned, by some way.

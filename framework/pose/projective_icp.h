@@ -35,7 +35,7 @@ struct ProjectiveIcpOptions {
   double min_overlap = 0.1;  ///< where a smaller share of the source meets a point of the target
   double min_inliers = 0.3;  ///< where a smaller share of what meets one has an accepted match
   double max_shift = 150;    ///< mm, where both the camera and the middle of the source moved further
-  double max_turn = 0.3491;  ///< radians (20 degrees), where it turned further from the start
+  double max_turn = std::numbers::pi / 9;  ///< radians (20 degrees), where it turned further from the start
 };
 
 /// A level for a source in some window.
