@@ -27,7 +27,7 @@ typedef int Truth;
 #endif
 
 // Drivers leave functions of many vectors apart, and hand those over through memory.
-#define INLINED static inline __attribute__((always_inline))
+#define INLINED static inline
 
 #define WHERE(condition, value) select((Lanes)0, value, condition)  // 0 elsewhere
 

@@ -87,6 +87,15 @@ export async function colorsOf(canvas) {
   });
 }
 
+/** The share of a canvas that does not look as its corner does. */
+export async function coverageOf(canvas) {
+  return canvas.evaluate((element) => {
+    const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
+    const pixels = new Uint32Array(data.buffer);
+    return pixels.filter((color) => color !== pixels[0]).length / pixels.length;
+  });
+}
+
 /** A number that stands for what a canvas shows. */
 export async function pixelsOf(canvas) {
   return canvas.evaluate((element) => {

@@ -1,7 +1,7 @@
 // frames_page_test.mjs FOLDER: the page that make_pages wrote there of frames that were tracked.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { assertQuiet, changes, checkLayout, colorsOf, eventually, openBrowser, openPage } from "./browser.mjs";
+import { assertQuiet, changes, checkLayout, colorsOf, coverageOf, eventually, openBrowser, openPage } from "./browser.mjs";
 
 const folder = process.argv[2];
 let browser;
@@ -16,8 +16,14 @@ after(() => browser?.close());
 
 test("nothing is cut off, on any screen", () => checkLayout(page, "frames"));
 
-test("frame, path and camera are drawn, and each layer can be switched", async () => {
+test("the surface is seen large, however far the camera that took it was", async () => {
   assert.ok(await colorsOf(canvas) > 40);
+  assert.ok(await coverageOf(canvas) > 0.1);
+});
+
+test("frame, path and camera are drawn, and each layer can be switched", async () => {
+  await canvas.click(); // from then on the wheel is the view's
+  await changes(canvas, () => page.mouse.wheel(0, 3500), "further away, where the path is seen, too");
   const boxes = page.locator(".view-layers input");
   const values = (all) => all.filter((box) => box.checked).map((box) => box.value);
   assert.deepEqual(await boxes.evaluateAll(values), ["registered", "path", "camera"]);

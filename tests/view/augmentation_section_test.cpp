@@ -55,7 +55,7 @@ TEST_F(AugmentationSection, IsScaledAndTurned) {
 }
 
 TEST_F(AugmentationSection, HasTheColourOfTheFileOrTheSection) {
-  EXPECT_EQ(object("axes.glb, color: [1, 2, 300]").mesh.colors, std::vector<Rgb>(3, Rgb{1, 2, 255}));
+  EXPECT_EQ(object("axes.glb, color: [1, 2, 255]").mesh.colors, std::vector<Rgb>(3, Rgb{1, 2, 255}));
   glb_.json["meshes"][0]["primitives"][0]["material"] = 0;
   glb_.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 1}}}}}};
   write("green.glb", glb_.bytes());

@@ -168,17 +168,27 @@ export class ViewScene {
     }
   }
 
-  /** The middle of the result, whatever strays, and of where the camera went; and how far they reach from there. */
+  /** The middle of the result, and how far it reaches from there; both with where the camera went, unless the result
+   * would be small beside that. */
   frame() {
-    const { points } = this.stepAt(this.data.result);
-    const ends = [0, 1, 2].map((axis) => {
-      const isOfAxis = (_, index) => index % 3 === axis;
-      const sorted = points.filter(isOfAxis).sort();
-      const [low, high] = [0.02, 0.98].map((share) => sorted[Math.floor(share * (sorted.length - 1))] ?? 0);
-      const places = this.path.filter(isOfAxis);
+    const result = this.endsOfResult();
+    const whole = result.map(([low, high], axis) => {
+      const places = this.path.filter((_, index) => index % 3 === axis);
       return [Math.min(low, ...places), Math.max(high, ...places)];
     });
+    const radius = (ends) => Math.max(Math.hypot(...ends.map(([low, high]) => (high - low) / 2)), 1);
+    this.framesPath = this.path.length > 0 && radius(whole) <= 2 * radius(result);
+    const ends = this.framesPath ? whole : result;
     this.centre = new Vector3(...ends.map(([low, high]) => (low + high) / 2));
-    this.radius = Math.max(Math.hypot(...ends.map(([low, high]) => (high - low) / 2)), 1);
+    this.radius = radius(ends);
+  }
+
+  /** Along each axis, whatever strays left out. */
+  endsOfResult() {
+    const { points } = this.stepAt(this.data.result);
+    return [0, 1, 2].map((axis) => {
+      const sorted = points.filter((_, index) => index % 3 === axis).sort();
+      return [0.02, 0.98].map((share) => sorted[Math.floor(share * (sorted.length - 1))] ?? 0);
+    });
   }
 }

@@ -7,16 +7,17 @@ import { ViewScene } from "./view_scene.js";
 
 // What a view shows: the iterations of a registration, or frames that were tracked.
 const iterations = {
-  step: "iteration", shown: ["registered"], direction: [0.45, 0.3, 1],
+  step: "iteration", shown: ["registered"],
   layers: { registered: "registered, by error", source: "source", target: "target", graph: "deformation graph",
     quadtree: "quadtree", constraints: "constraints", unmatched: "unmatched points" },
   errors: { nearest: "to the nearest target point", truth: "to the true position" },
 };
 const frames = {
-  step: "frame", shown: ["registered", "path", "camera"], direction: [1, 0.45, 0.35],
+  step: "frame", shown: ["registered", "path", "camera"],
   layers: { registered: "frame, by distance", target: "model", path: "path of the camera", camera: "camera" },
   errors: { nearest: "to the model" },
 };
+const besideTheCamera = [0.45, 0.3, 1], besideItsPath = [1, 0.45, 0.35];
 const secondsAStep = 0.6;
 
 export class Viewer {
@@ -80,11 +81,11 @@ export class Viewer {
         this.highest, reset));
   }
 
-  /** Looks from beside the camera that took the depth. */
+  /** Looks from beside the camera that took the depth, or from beside its path where that is seen, too. */
   aim() {
-    const { centre, radius } = this.scene;
+    const { centre, radius, framesPath } = this.scene;
     const fit = (1.02 * radius) / Math.sin((17.5 * Math.PI) / 180) / Math.min(this.camera.aspect, 1);
-    const back = new Vector3(...this.words.direction).normalize().multiplyScalar(fit);
+    const back = new Vector3(...(framesPath ? besideItsPath : besideTheCamera)).normalize().multiplyScalar(fit);
     this.camera.position.copy(centre).add(back);
     this.camera.near = radius / 50;
     this.camera.far = radius * 50;
