@@ -1,5 +1,6 @@
 // Explicit vectors of WIDTH values, over which kernels are written: drivers do not make them themselves out
-// of work-items with inner loops.
+// of work-items with inner loops. Large functions of vectors are `inline`: drivers leave others apart, and
+// hand vectors over through memory.
 
 #if WIDTH == 16
 typedef float16 Lanes;
@@ -25,9 +26,6 @@ typedef int Truth;
 #else
 #error "WIDTH must be 1 or 16"
 #endif
-
-// Drivers leave functions of many vectors apart, and hand those over through memory.
-#define INLINED static inline
 
 #define WHERE(condition, value) select((Lanes)0, value, condition)  // 0 elsewhere
 

@@ -81,8 +81,8 @@ Ints is_edge(global const float* pixel, int stride, Lanes z, Ints q, float depth
 }
 
 // Adds row y of the image to the sums: from `above` to `sums`.
-INLINED void sum_row(global const float* depth, int stride, int columns, int y, float depth_change,
-                     int coarse_bits, local const int* above, local int* sums) {
+static inline void sum_row(global const float* depth, int stride, int columns, int y, float depth_change,
+                           int coarse_bits, local const int* above, local int* sums) {
   Ints q_before = 0, qu_before = 0, cc_before = 0, ce_before = 0;
   for (int x = 0; x < columns; x += WIDTH) {
     global const float* pixel = depth + x;
@@ -108,7 +108,7 @@ typedef struct {
 } Corners;
 
 // `which` of the five sums over a window.
-INLINED Ints over_window(Corners at, int side, int which) {
+static inline Ints over_window(Corners at, int side, int which) {
   local const int* top = at.top + which * SUM_STRIDE;
   local const int* bottom = at.bottom + which * SUM_STRIDE;
   return (LOAD_INTS(bottom + side) - LOAD_INTS(bottom)) - (LOAD_INTS(top + side) - LOAD_INTS(top));
@@ -122,7 +122,7 @@ typedef struct {
 } Course;
 
 // The course over the window of radius r around the pixels from (x, y) of the tile on. ce: the sum over it.
-INLINED Course course_over(Corners at, Ints ce, int x, int y, int r, int coarse_bits) {
+static inline Course course_over(Corners at, Ints ce, int x, int y, int r, int coarse_bits) {
   const int side = 2 * r + 1, pixels = side * side;
   const float spread = r * (r + 1) / 3.0f, share = 1.0f / pixels, per_square = share / spread;
   const float coarse_unit = 1 << coarse_bits;
@@ -147,7 +147,8 @@ INLINED Course course_over(Corners at, Ints ce, int x, int y, int r, int coarse_
 
 // The course over the largest window around each pixel that holds no edge. The sums are a ring of rows, the
 // last of which, in `last`, ends the windows of that radius.
-INLINED Course course_around(local const int* sums, int last, int x, int y, int radius, int coarse_bits) {
+static inline Course course_around(local const int* sums, int last, int x, int y, int radius,
+                                   int coarse_bits) {
   Course course = {0, 0, 0, 0};
   for (int r = radius; r > 0; --r) {
     const int ring = 2 * radius + 2, bottom = last - (radius - r) + (last < radius - r ? ring : 0);
@@ -167,7 +168,7 @@ INLINED Course course_around(local const int* sums, int last, int x, int y, int 
 }
 
 // The covariance of the points that lie on `course` around `ray`, up to scale.
-INLINED Symmetric covariance_of(Course course, Vector ray, float2 focal) {
+static inline Symmetric covariance_of(Course course, Vector ray, float2 focal) {
   const Lanes squares = course.by_u * course.by_u + course.by_v * course.by_v + course.left;
   const Lanes weight = 1.0f + course.spread * squares;  // mean of q^2 over the square of the mean
   const float ratio = focal.x / focal.y;
@@ -184,7 +185,7 @@ INLINED Symmetric covariance_of(Course course, Vector ray, float2 focal) {
 }
 
 // The unit normal of a course, towards the camera; (0, 0, 0) where there is none.
-INLINED Vector normal_of(Course course, Vector ray, float2 focal) {
+static inline Vector normal_of(Course course, Vector ray, float2 focal) {
   const Vector least = smallest_eigenvector(covariance_of(course, ray, focal));
   const Lanes length = inverse_root(inner(least, least));
   return only(course.spread > (Lanes)0, scaled(least, select(length, -length, inner(least, ray) > (Lanes)0)));

@@ -92,8 +92,8 @@ typedef struct {
 
 // What the map shows at places in the image: the depth between four pixels, of which those count that have
 // about the depth of the nearest one.
-INLINED Seen depth_at(Lanes u, Lanes v, Truth in_front, int4 window, int stride, float truncation,
-                      global const float* depth) {
+static inline Seen depth_at(Lanes u, Lanes v, Truth in_front, int4 window, int stride, float truncation,
+                            global const float* depth) {
   const Lanes left = floor(u), top = floor(v), a = u - left, b = v - top;
   const Truth is_right = a >= (Lanes)0.5f, is_lower = b >= (Lanes)0.5f;
   const Lanes column = left + select((Lanes)0, (Lanes)1, is_right);
@@ -119,9 +119,9 @@ INLINED Seen depth_at(Lanes u, Lanes v, Truth in_front, int4 window, int stride,
 
 // What WIDTH voxels hold, in parts of the truncation, once a map told of them, which counts as `shown`
 // frames. `p`: where they lie, in voxels.
-INLINED Lanes fuse_voxels(Vector p, float16 placing, float4 camera, int4 window, int stride, float truncation,
-                          float shown, float max_weight, global const float* depth, global short* distances,
-                          global uchar* weights) {
+static inline Lanes fuse_voxels(Vector p, float16 placing, float4 camera, int4 window, int stride,
+                                float truncation, float shown, float max_weight, global const float* depth,
+                                global short* distances, global uchar* weights) {
   const Lanes px = fma((Lanes)placing.s0, p.x,
                        fma((Lanes)placing.s1, p.y, fma((Lanes)placing.s2, p.z, (Lanes)placing.s3)));
   const Lanes py = fma((Lanes)placing.s4, p.x,

@@ -112,7 +112,7 @@ Sample interpolate(Pair p00, Pair p10, Pair p01, Pair p11, Cell cell) {
   return sample;
 }
 
-INLINED Sample sample_at(Field field, Vector p) {
+static inline Sample sample_at(Field field, Vector p) {
   const Cell cell = cell_of(field, p);
   const int row = field.size.x, layer = field.layer;
   return interpolate(gather_pair(field, cell.corner), gather_pair(field, cell.corner + row),
@@ -121,7 +121,7 @@ INLINED Sample sample_at(Field field, Vector p) {
 }
 
 // The same with the smooth gradient.
-INLINED Sample smooth_sample_at(Field field, Vector p) {
+static inline Sample smooth_sample_at(Field field, Vector p) {
   const Cell cell = cell_of(field, p);
   const Truth c = cell.corner;
   const int row = field.size.x, layer = field.layer;
@@ -174,8 +174,8 @@ typedef struct {
 // behind ends there, having seen nothing. `voxel` and `truncation`: mm along the axis. Where nothing was
 // observed steps are as long as the truncation: as thick is what was observed on either side of a surface.
 // One that leads to behind a surface is taken back, and that way gone in steps of a voxel.
-INLINED Crossing march(Field field, Vector from, Vector direction, float near, float far, Lanes voxel,
-                       Lanes truncation) {
+static inline Crossing march(Field field, Vector from, Vector direction, float near, float far, Lanes voxel,
+                             Lanes truncation) {
   Crossing crossing = {0, 0, 0, 0, 0};
   const Lanes reach = 0.75f / STEPS * truncation;
   Lanes z = near, last = 0, last_z = near, careful_to = near;

@@ -96,7 +96,7 @@ ProjectiveIcp::ProjectiveIcp(Device& device, const ProjectiveIcpOptions& options
 void ProjectiveIcp::begin(const SurfaceMap& source, int step, const Eigen::Isometry3d& start) {
   const std::size_t room = rigid_sums * std::max(runs_of(source.window, 1, device_->width()),
                                                  static_cast<std::size_t>(source.window.height));
-  if (partials_.size() < room) partials_ = Array<float>(room);
+  partials_.make_room(room);
   const int rows = sampled(source.window.height, step);
   auto measure = icp_kernel(*device_, "measure");
   device_->run("icp", measure, static_cast<std::size_t>(rows), 1, size_of(source), step,

@@ -29,8 +29,6 @@ class StreamTest : public ExperimentFiles {
     }
   }
 
-  /// Bytes that the host has allocated; 0 where the C library does not tell, as under sanitizers.
-
   Device device_;
 };
 
