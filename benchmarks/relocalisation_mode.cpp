@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "experiments/datasets/frame_source.h"
 #include "experiments/runner/components.h"
 #include "framework/config/config.h"
+#include "framework/core/angle.h"
 #include "framework/tracking/tracker.h"
 
 namespace pliant::bench {
@@ -19,7 +19,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double distance = 700;  // mm, of the head from the camera
 constexpr int smooth_frames = 60;
 constexpr int held = 2;           // frames in each place

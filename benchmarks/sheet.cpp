@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "framework/geometry/point_set.h"
+
 namespace pliant::bench {
 namespace {
 
@@ -21,12 +23,6 @@ Eigen::Vector3f bent(double s, double t) {
   const Eigen::Vector3d moved(-0.1 * bend * std::sin(2 * pi * s), 0.05 * bend * std::sin(2 * pi * t),
                               -bend * std::sin(pi * s) * std::cos(pi * (t - 0.5)));
   return at(s, t) + moved.cast<float>();
-}
-
-Array<float> flat(const std::vector<Eigen::Vector3f>& points) {
-  std::vector<float> values;
-  for (const auto& point : points) values.insert(values.end(), point.data(), point.data() + 3);
-  return Array<float>(std::move(values));
 }
 
 }  // namespace
@@ -48,7 +44,7 @@ std::unique_ptr<Problem> make_sheet(const SheetSize& size, const Registry& regis
     const Eigen::Vector3f wish = bent(s, t) - points.back();
     data.insert(data.end(), {wish.x(), wish.y(), wish.z(), 0, 0, -1});
   }
-  constraints->points = flat(points);
+  constraints->points = flatten(points);
   constraints->data = Array<float>(std::move(data));
   constraints->confidence = Array<float>(std::vector<float>(points.size(), 1.0F));
   constraints->influences = compute_influences(device, constraints->points, nodes, nearest_nodes);

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "framework/core/angle.h"
 #include "framework/core/error.h"
 
 namespace pliant {
@@ -34,7 +33,7 @@ bool is_given(const Parameters& section, const char* name) {
 }  // namespace
 
 Eigen::Quaterniond turned(const Eigen::Vector3d& degrees) {
-  const Eigen::Vector3d radians = degrees * std::numbers::pi / 180;
+  const Eigen::Vector3d radians = degrees * degree;
   return Eigen::AngleAxisd(radians.z(), Eigen::Vector3d::UnitZ()) *
          Eigen::AngleAxisd(radians.y(), Eigen::Vector3d::UnitY()) *
          Eigen::AngleAxisd(radians.x(), Eigen::Vector3d::UnitX());

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <random>
 #include <string>
 
 #include "experiments/datasets/depth_sensor.cl.embed.h"
+#include "framework/core/angle.h"
 #include "framework/geometry/surface_map.h"
 
 namespace pliant {
@@ -46,8 +46,7 @@ DepthSensor::DepthSensor(const DepthSensorSettings& settings, const Camera& came
     : settings_(settings),
       camera_(camera),
       seed_(seed),
-      grazing_(settings.grazing > 0 ? static_cast<float>(settings.grazing * std::numbers::pi / 180)
-                                    : half_pi) {}
+      grazing_(settings.grazing > 0 ? static_cast<float>(settings.grazing * degree) : half_pi) {}
 
 DepthSensor::Key DepthSensor::key_of(std::uint32_t frame) const {
   std::mt19937_64 generator(seed_ + 0x9e3779b97f4a7c15U * (std::uint64_t{frame} + 1));

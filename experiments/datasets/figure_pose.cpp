@@ -104,6 +104,10 @@ FigurePose read_pose(const Figure& figure, const std::vector<std::string>& words
   return pose;
 }
 
+std::string name_of_pose(const std::vector<std::string>& words) {
+  return words.empty() ? "neutral" : fmt::format("{}", fmt::join(words, " "));
+}
+
 FigurePose between(const FigurePose& from, const FigurePose& to, double share) {
   FigurePose pose = from;
   for (std::size_t i = 0; i < pose.weights.size(); ++i)

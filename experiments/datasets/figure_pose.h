@@ -14,6 +14,9 @@ namespace pliant {
 /// (the nearest is named) and for one that is given twice.
 FigurePose read_pose(const Figure& figure, const std::vector<std::string>& words, const std::string& place);
 
+/// The words as a reader is told of them.
+std::string name_of_pose(const std::vector<std::string>& words);
+
 /// `share` of the way from one pose to another.
 FigurePose between(const FigurePose& from, const FigurePose& to, double share);
 

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <utility>
 
+#include "experiments/datasets/figure_pose.h"
 #include "experiments/datasets/kinect_noise.h"
 #include "experiments/datasets/mesh_size.h"
 #include "experiments/datasets/rigid_motion.h"
@@ -70,10 +71,6 @@ void hide_left_part(DepthImage& depth, double share) {
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = first; u < stop; ++u) depth(u, v) = 0;
   }
-}
-
-std::string described(const std::vector<std::string>& expression) {
-  return expression.empty() ? "neutral" : fmt::format("{}", fmt::join(expression, " "));
 }
 
 }  // namespace
@@ -157,7 +154,7 @@ std::unique_ptr<DataStream> RenderedMesh::open(Device& /*device*/, std::uint64_t
 
   StoredPair pair;
   pair.name = fmt::format("{}, {} to {}", std::filesystem::path(settings_.mesh).stem().string(),
-                          described(settings_.source), described(settings_.target));
+                          name_of_pose(settings_.source), name_of_pose(settings_.target));
   pair.rig.depth = camera;
   if (is_odd_size(box())) pair.warnings.push_back(fmt::format("{}: {}", settings_.mesh, size_and_unit()));
   pair.source = picture_of(seen_source, mesh_.triangles, at_rest);

@@ -1,11 +1,11 @@
 #include "experiments/datasets/rigid_motion.h"
 
-#include <numbers>
+#include "framework/core/angle.h"
 
 namespace pliant {
 
 Eigen::Isometry3d RigidMotion::transform() const {
-  const auto radians = [](double degrees) { return degrees * std::numbers::pi / 180; };
+  const auto radians = [](double degrees) { return degrees * degree; };
   return Eigen::Translation3d(shift) * Eigen::AngleAxisd(radians(rotation_x), Eigen::Vector3d::UnitX()) *
          Eigen::AngleAxisd(radians(rotation_y), Eigen::Vector3d::UnitY());
 }

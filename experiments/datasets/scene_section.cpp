@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "experiments/datasets/figure_pose.h"
 #include "experiments/datasets/virtual_camera.h"
 #include "framework/core/error.h"
 
@@ -58,10 +59,6 @@ double fitting_distance(const Eigen::Vector3d& size, const Camera& camera) {
   return std::max({wide, high, nearest + size.z() / 2});
 }
 
-std::string described(const std::vector<std::string>& words) {
-  return words.empty() ? "neutral" : fmt::format("{}", fmt::join(words, " "));
-}
-
 std::string place_of(const Parameters& section, const std::string& what, const std::string& key) {
   return fmt::format("{}: '{}' of {}", section.place(), key, what);
 }
@@ -78,8 +75,8 @@ class KeyReader {
     SceneKey target{0, pose(section_, "target"), read_motion(section_.section("motion")), {}};
     scene.frames = static_cast<int>(section_.integer("frames"));
     target.time = (scene.frames - 1) / frame_rate;
-    scene.name +=
-        fmt::format(", {} to {}", described(section_.words("source")), described(section_.words("target")));
+    scene.name += fmt::format(", {} to {}", name_of_pose(section_.words("source")),
+                              name_of_pose(section_.words("target")));
     scene.keys = {std::move(source), std::move(target)};
   }
 

@@ -20,10 +20,10 @@ constexpr float freckle_edge = 0.35F;
 // Of the radius of a patch, on which its colour fades.
 constexpr float patch_edge = 0.5F;
 
-using Cell = std::array<std::uint32_t, 3>;
+using HashedCell = std::array<std::uint32_t, 3>;
 
 /// As corner_bits() of surface_color.cl.
-std::uint32_t corner_bits(const Cell& corner, std::uint32_t key) {
+std::uint32_t corner_bits(const HashedCell& corner, std::uint32_t key) {
   std::uint32_t bits = corner[0] * 0x9e3779b1U + corner[1] * 0x85ebca77U + corner[2] * 0xc2b2ae3dU + key;
   bits = (bits ^ (bits >> 16)) * 0x85ebca6bU;
   bits = (bits ^ (bits >> 13)) * 0xc2b2ae35U;
@@ -31,7 +31,7 @@ std::uint32_t corner_bits(const Cell& corner, std::uint32_t key) {
 }
 
 /// Interpolates between the two halves of a cell's corners, axis by axis from the last one.
-Eigen::Vector3f blend(Cell corner, std::size_t axis, const Eigen::Array3f& share, std::uint32_t key) {
+Eigen::Vector3f blend(HashedCell corner, std::size_t axis, const Eigen::Array3f& share, std::uint32_t key) {
   if (axis == 3) {
     const std::uint32_t bits = corner_bits(corner, key);
     return {static_cast<float>(bits & 1023U), static_cast<float>((bits >> 10) & 1023U),

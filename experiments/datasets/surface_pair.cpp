@@ -10,6 +10,7 @@
 #include "experiments/datasets/mesh_size.h"
 #include "experiments/datasets/stored_pair.h"
 #include "experiments/datasets/virtual_camera.h"
+#include "framework/core/angle.h"
 #include "framework/core/error.h"
 #include "framework/geometry/bounding_box.h"
 #include "framework/geometry/render.h"
@@ -148,7 +149,7 @@ Eigen::Isometry3d pose_of(const Parameters& section) {
 
 SurfacePair::Settings settings_of(const Parameters& section) {
   const auto turn = [&](const char* name, const Eigen::Vector3d& axis) {
-    return Eigen::AngleAxisd(section.real(name) * std::numbers::pi / 180, axis);
+    return Eigen::AngleAxisd(section.real(name) * degree, axis);
   };
   SurfacePair::Settings settings;
   settings.source = section.text("source");

@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "framework/core/angle.h"
 
 namespace pliant {
 
@@ -35,8 +36,7 @@ VectorField shift(const Point& displacement) {
 
 VectorField turn(const Point& centre, const Point& axis, double degrees) {
   const Eigen::Matrix3d moved =
-      Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis.normalized()).toRotationMatrix() -
-      Eigen::Matrix3d::Identity();
+      Eigen::AngleAxisd(degrees * degree, axis.normalized()).toRotationMatrix() - Eigen::Matrix3d::Identity();
   return [centre, moved](const Point& p) -> Point { return moved * (p - centre); };
 }
 

@@ -2,10 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "framework/core/angle.h"
 #include "framework/core/nearest.h"
 
 namespace pliant {
@@ -38,7 +38,6 @@ void add_pose(const Mesh& mesh, const NamedPose& named, double share, FigurePose
 }
 
 MeshPose on_top(MeshPose beneath, const FigurePose& pose) {
-  constexpr double degree = std::numbers::pi / 180;
   for (std::size_t i = 0; i < pose.weights.size(); ++i) beneath.weights[i] += pose.weights[i];
   for (std::size_t i = 0; i < pose.degrees.size(); ++i) {
     const Eigen::Vector3d radians = degree * pose.degrees[i];

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "framework/core/angle.h"
 
 namespace pliant {
 namespace {
@@ -38,7 +39,6 @@ class TaperedCapsule {
 }  // namespace
 
 Eigen::Matrix3d turned(double x, double y, double z) {
-  constexpr double degree = std::numbers::pi / 180;
   return (Eigen::AngleAxisd(z * degree, Eigen::Vector3d::UnitZ()) *
           Eigen::AngleAxisd(y * degree, Eigen::Vector3d::UnitY()) *
           Eigen::AngleAxisd(x * degree, Eigen::Vector3d::UnitX()))

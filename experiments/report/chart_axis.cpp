@@ -8,7 +8,7 @@
 namespace pliant {
 namespace {
 
-constexpr double air = 0.06;  ///< of the axis, beyond the outermost values
+constexpr double margin_share = 0.06;  ///< of the axis, beyond the outermost values
 
 /// 1, 2 or 5 times a power of ten.
 double round_step(double least) {
@@ -48,7 +48,8 @@ std::vector<double> log_ticks(double low, double high) {
 }
 
 ChartAxis linear_axis(double least, double most, bool from_zero, bool whole) {
-  const double margin = most > least ? air * (most - least) : std::max(std::abs(most) * air, 0.5);
+  const double margin =
+      most > least ? margin_share * (most - least) : std::max(std::abs(most) * margin_share, 0.5);
   ChartAxis axis{false, least - margin, most + margin, {}};
   // An axis that ends a little below zero would suggest that values may be negative.
   if (least >= 0 && (from_zero || axis.low < 0 || least < 0.35 * most)) axis.low = 0;
@@ -59,7 +60,7 @@ ChartAxis linear_axis(double least, double most, bool from_zero, bool whole) {
 }
 
 ChartAxis log_axis(double least, double most) {
-  const double margin = std::pow(10, std::max(air * std::log10(most / least), 0.05));
+  const double margin = std::pow(10, std::max(margin_share * std::log10(most / least), 0.05));
   ChartAxis axis{true, least / margin, most * margin, {}};
   axis.ticks = log_ticks(axis.low, axis.high);
   return axis;

@@ -11,6 +11,7 @@
 #include "experiments/report/heat_map.h"
 #include "experiments/tasks/drawings.h"
 #include "experiments/tasks/result_parts.h"
+#include "framework/core/angle.h"
 
 namespace pliant {
 namespace {
@@ -19,7 +20,7 @@ using nlohmann::ordered_json;
 
 ordered_json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-double degrees(const Eigen::AngleAxisd& turn) { return turn.angle() * 180 / EIGEN_PI; }
+double degrees(const Eigen::AngleAxisd& turn) { return turn.angle() / degree; }
 
 /// The rotation as axis times degrees, the translation in mm.
 ordered_json alignment_json(const AlignmentResult& alignment) {
@@ -28,7 +29,7 @@ ordered_json alignment_json(const AlignmentResult& alignment) {
           {"reason", alignment.reason},
           {"matches", alignment.matches},
           {"inliers", alignment.inliers},
-          {"rotation", vector_json(turn.axis() * turn.angle() * 180 / EIGEN_PI)},
+          {"rotation", vector_json(turn.axis() * turn.angle() / degree)},
           {"translation", vector_json(alignment.motion.translation())}};
 }
 

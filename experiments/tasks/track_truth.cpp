@@ -1,10 +1,10 @@
 #include "experiments/tasks/track_truth.h"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <vector>
 
+#include "framework/core/angle.h"
 #include "framework/evaluation/mesh_distance.h"
 #include "framework/geometry/bounding_box.h"
 
@@ -13,7 +13,7 @@ namespace pliant {
 PoseError pose_error(const Eigen::Isometry3d& found, const Eigen::Isometry3d& truth) {
   const Eigen::Isometry3d between = found.inverse() * truth;  // of two cameras in the model's frame
   return {(found.inverse().translation() - truth.inverse().translation()).norm(),
-          Eigen::AngleAxisd(between.rotation()).angle() * 180 / std::numbers::pi};
+          Eigen::AngleAxisd(between.rotation()).angle() / degree};
 }
 
 std::optional<PoseError> TrackTruth::error_of(const FrameRecord& record) {

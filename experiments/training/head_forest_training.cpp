@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <functional>
-#include <numbers>
 #include <utility>
 
 #include "experiments/training/all_processors.h"
 #include "experiments/training/head_sitter.h"
 #include "experiments/training/head_trial.h"
+#include "framework/core/angle.h"
 #include "framework/pose/head_search.h"
 
 namespace pliant {
@@ -65,7 +65,7 @@ std::vector<TrainingPatch> patches_of(const HeadView& view, int heads, int other
 
 /// Of poses as they may be taken for the head's: some almost right, others as far away as votes are.
 std::vector<TrainingPatch> refining_patches_of(const HeadView& view, int count, Draw& draw) {
-  const Eigen::Vector3d farthest_turn = Eigen::Vector3d(22, 36, 15) * std::numbers::pi / 180;
+  const Eigen::Vector3d farthest_turn = Eigen::Vector3d(22, 36, 15) * degree;
   constexpr double farthest_offset = 22;  // mm
   const std::vector<Eigen::Vector3f> points =
       points_near(view.depth, head_camera(), view.camera_from_head.translation());

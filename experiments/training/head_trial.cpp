@@ -1,17 +1,15 @@
 #include "experiments/training/head_trial.h"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include "experiments/training/all_processors.h"
+#include "framework/core/angle.h"
 #include "framework/core/stopwatch.h"
 
 namespace pliant {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// What estimates have in common that truths have not, in the head's frame.
 Eigen::Isometry3d mean_offset(const std::vector<HeadView>& views,
@@ -59,9 +57,9 @@ HeadTrial try_head_forest(const HeadForest& forest, const HeadSearchOptions& opt
     const Eigen::Vector3d difference = head_angles(estimate.linear()) - head_angles(truth.linear());
     ++trial.found;
     trial.position.push_back((estimate.translation() - truth.translation()).norm());
-    trial.angles.emplace_back(degrees * difference.cwiseAbs());
-    trial.rotation.push_back(degrees *
-                             Eigen::AngleAxisd(truth.linear().transpose() * estimate.linear()).angle());
+    trial.angles.emplace_back(difference.cwiseAbs() / degree);
+    trial.rotation.push_back(Eigen::AngleAxisd(truth.linear().transpose() * estimate.linear()).angle() /
+                             degree);
   }
   return trial;
 }

@@ -6,6 +6,7 @@
 
 #include "experiments/datasets/depth_sensor.h"
 #include "experiments/training/head_sitter.h"
+#include "framework/core/angle.h"
 #include "framework/geometry/bounding_box.h"
 #include "framework/geometry/render.h"
 #include "framework/pose/head_forest.h"
@@ -15,7 +16,6 @@ namespace {
 
 using Point = Eigen::Vector3d;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double chin = -115;  // y of the head's frame, mm: what is below belongs to the neck
 
 /// Triangles in the camera's frame, with what each is.

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "experiments/training/tree_growth.h"
+#include "framework/core/angle.h"
 
 namespace pliant {
 namespace {
 
 constexpr double least_offset_variance = 1;  // mm^2
-constexpr double least_angle = 0.5 * std::numbers::pi / 180;
+constexpr double least_angle = 0.5 * degree;
 
 Eigen::Matrix<double, 6, 1> products(const Eigen::Vector3d& a) {
   Eigen::Matrix<double, 6, 1> result;

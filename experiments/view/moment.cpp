@@ -15,10 +15,10 @@ namespace {
 
 constexpr int panel_width = 150;
 constexpr int most_panel_height = 220;
-constexpr int gap = 4;
+constexpr int pair_gap = 4;
 constexpr int margin = 14;
-constexpr int header = 22;
-const cv::Scalar paper(255, 255, 255);
+constexpr int caption_height = 22;
+const cv::Scalar white(255, 255, 255);
 
 cv::Size panel_size(const PixelWindow& window) {
   return {panel_width,
@@ -39,11 +39,11 @@ std::string caption_of(const FrameRecord& record) {
 /// Caption, model and distances of a moment.
 cv::Mat draw(const Moment& moment, const ColorScale& scale) {
   const cv::Size size = moment.model.size();
-  cv::Mat pair(header + size.height, 2 * size.width + gap, CV_8UC3, paper);
-  draw_text(pair, moment.caption, {0, header - 8}, 0.4, 4, ink);
-  moment.model.copyTo(pair(cv::Rect({0, header}, size)));
+  cv::Mat pair(caption_height + size.height, 2 * size.width + pair_gap, CV_8UC3, white);
+  draw_text(pair, moment.caption, {0, caption_height - 8}, 0.4, 4, ink);
+  moment.model.copyTo(pair(cv::Rect({0, caption_height}, size)));
   const PixelWindow window{0, 0, moment.distances.width(), moment.distances.height()};
-  paint_distances(pair(cv::Rect({size.width + gap, header}, size)), PanelPixels(size, window),
+  paint_distances(pair(cv::Rect({size.width + pair_gap, caption_height}, size)), PanelPixels(size, window),
                   moment.distances, window, scale);
   return pair;
 }
@@ -60,14 +60,15 @@ Moment moment_of(const TrackedFrame& tracked) {
 std::vector<std::uint8_t> draw_moments(const std::vector<Moment>& moments, const ColorScale& scale,
                                        int a_row) {
   const int count = static_cast<int>(moments.size());
-  const cv::Size cell(2 * panel_width + gap + margin, moments[0].model.rows + header + margin);
+  const cv::Size cell(2 * panel_width + pair_gap + margin, moments[0].model.rows + caption_height + margin);
   const int rows = (count + a_row - 1) / a_row;
-  cv::Mat canvas(rows * cell.height + header + 2 * margin, std::min(count, a_row) * cell.width + margin,
-                 CV_8UC3, paper);
+  cv::Mat canvas(rows * cell.height + caption_height + 2 * margin,
+                 std::min(count, a_row) * cell.width + margin, CV_8UC3, white);
   draw_scale(canvas, {0, margin}, scale);
   for (int i = 0; i < count; ++i) {
     const cv::Mat pair = draw(moments[static_cast<std::size_t>(i)], scale);
-    const cv::Point corner(margin + i % a_row * cell.width, margin + header + i / a_row * cell.height);
+    const cv::Point corner(margin + i % a_row * cell.width,
+                           margin + caption_height + i / a_row * cell.height);
     pair.copyTo(canvas(cv::Rect(corner, pair.size())));
   }
   cv::cvtColor(canvas, canvas, cv::COLOR_RGB2BGR);

@@ -14,8 +14,6 @@ constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr float moving_distance = 1;  // mm
 constexpr float seen_distance = 10;   // mm: beyond the noise of a depth camera, below what hides anything
 
-bool is_point(const Eigen::Vector3f& point) { return point.allFinite() && point.z() > 0; }
-
 struct Spread {
   double mean = 0;
   double sd = 0;

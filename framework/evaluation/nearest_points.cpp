@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "framework/geometry/surface.h"
+
 namespace pliant {
 namespace {
 
@@ -19,8 +21,6 @@ struct Box {
   Eigen::Vector3f lowest = Eigen::Vector3f::Constant(infinity);
   Eigen::Vector3f highest = Eigen::Vector3f::Constant(-infinity);
 };
-
-bool is_point(const Eigen::Vector3f& point) { return point.allFinite() && point.z() > 0; }
 
 /// Squared lengths, added up in this order wherever distances are compared. Rounding keeps order, so that the
 /// distance to a box is never above that to a point inside.

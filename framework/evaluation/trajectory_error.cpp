@@ -5,9 +5,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "framework/core/angle.h"
 #include "framework/core/error.h"
 
 namespace pliant {
@@ -63,7 +63,7 @@ Eigen::Matrix3d turn_of_orientations(const std::vector<PosePair>& pairs) {
 }
 
 double squared_degrees(const Eigen::Matrix3d& turn) {
-  const double degrees = Eigen::AngleAxisd(turn).angle() * 180 / std::numbers::pi;
+  const double degrees = Eigen::AngleAxisd(turn).angle() / degree;
   return degrees * degrees;
 }
 

@@ -19,8 +19,6 @@ void check_same_size(const Overlay& overlay, int width, int height, const char* 
   }
 }
 
-bool is_point(const Eigen::Vector3f& point) { return point.z() > 0; }
-
 PointImage make_points(const Frame& frame, const Camera& camera) {
   PointImage points(frame.depth.width(), frame.depth.height(), Eigen::Vector3f::Zero());
   for (int v = 0; v < points.height(); ++v) {

@@ -26,6 +26,9 @@ struct SurfaceImage {
   Image<Eigen::Vector3f> normals;
 };
 
+/// Whether that is a point, not one of the zeros that stand where there is none.
+inline bool is_point(const Eigen::Vector3f& point) { return point.allFinite() && point.z() > 0; }
+
 /// The window over which normals are fitted.
 inline constexpr int default_normal_radius = 2;
 inline constexpr float default_depth_step = 30;  // mm

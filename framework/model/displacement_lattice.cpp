@@ -14,11 +14,6 @@ cl::Kernel lattice_kernel(Device& device, const std::string& name) {
   return tsdf_kernel(device, source, name);
 }
 
-cl_int4 bricks_of(const TsdfGrid& grid) {
-  const Eigen::Vector3i bricks = grid.bricks();
-  return {{bricks.x(), bricks.y(), bricks.z(), 0}};
-}
-
 /// Whole blocks of lattice.cl.
 std::size_t listed_points(const Eigen::Vector3i& size) {
   const Eigen::Vector3i block(4, 2, 2);

@@ -19,11 +19,6 @@ void check(const Eigen::Isometry3d& pose) {
   if (!pose.matrix().allFinite()) throw NumericalError("the pose of the camera to the model is not finite");
 }
 
-cl_int4 bricks_of(const TsdfGrid& grid) {
-  const Eigen::Vector3i bricks = grid.bricks();
-  return {{bricks.x(), bricks.y(), bricks.z(), 0}};
-}
-
 std::size_t brick_count(const TsdfGrid& grid) { return grid.bricks().cast<std::size_t>().prod(); }
 
 std::size_t tiles_over(const PixelWindow& window) {

@@ -46,6 +46,11 @@ Eigen::Affine3d TsdfGrid::model_from_voxel() const {
   return Eigen::Translation3d(origin) * Eigen::Affine3d(Eigen::UniformScaling<double>(voxel));
 }
 
+cl_int4 bricks_of(const TsdfGrid& grid) {
+  const Eigen::Vector3i bricks = grid.bricks();
+  return {{bricks.x(), bricks.y(), bricks.z(), 0}};
+}
+
 cl_float16 rows_of(const Eigen::Affine3d& transform) {
   cl_float16 rows = {};
   for (int row = 0; row < 3; ++row)

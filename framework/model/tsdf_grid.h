@@ -35,6 +35,9 @@ struct TsdfGrid {
   Eigen::Affine3d model_from_voxel() const;
 };
 
+/// Bricks along x, y, z, as kernels take them.
+cl_int4 bricks_of(const TsdfGrid& grid);
+
 /// The rows of a transform one after another, as kernels and their references take it.
 cl_float16 rows_of(const Eigen::Affine3d& transform);
 

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <numbers>
 
+#include "framework/core/angle.h"
 #include "framework/core/error.h"
 #include "framework/geometry/has_point.h"
 
 namespace pliant {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// The pixels of every fourth row and column that have a point, as offsets in a window that holds all of
 /// them.

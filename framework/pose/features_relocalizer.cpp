@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "framework/core/angle.h"
 #include "framework/geometry/color_at_depth.h"
 #include "framework/pose/color_features.h"
 #include "framework/pose/surface_features.h"
@@ -12,7 +12,6 @@
 namespace pliant {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr int most_candidates = 4;  // of each kind of features
 
 /// What of a frame the surface is seen of, colour at its pixels.

@@ -2,9 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "framework/core/angle.h"
 #include "framework/pose/focal_length.cl.embed.h"
 #include "framework/pose/focal_length_equation.h.embed.h"
 #include "framework/pose/projective_icp.cl.embed.h"
@@ -15,7 +15,6 @@ namespace pliant {
 namespace {
 
 constexpr std::size_t focal_sums = 40;  // FOCAL_SUMS in focal_length.cl
-constexpr double degree = std::numbers::pi / 180;
 
 cl::Kernel focal_kernel(Device& device) {
   const auto text = [](int width) {

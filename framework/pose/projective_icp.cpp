@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "framework/core/angle.h"
 #include "framework/pose/projective_icp.cl.embed.h"
 
 namespace pliant {
@@ -31,7 +31,7 @@ std::size_t runs_of(const PixelWindow& window, int step, int width) {
 
 cl_int2 size_of(const SurfaceMap& map) { return {{map.window.width, map.window.height}}; }
 
-cl::Kernel icp_kernel(Device& device, const std::string& name) {
+cl::Kernel projective_kernel(Device& device, const std::string& name) {
   static const std::string scalar = with_rigid_step(1, embedded::framework_pose_projective_icp_cl);
   static const std::string vector = with_rigid_step(16, embedded::framework_pose_projective_icp_cl);
   return device.kernel(device.width() == 1 ? scalar : vector, name);
@@ -63,8 +63,8 @@ std::string complaint(const PoseEstimate& estimate, const ProjectiveIcpState& st
     return fmt::format("it moved by {:.0f} mm, expected {:g} mm at most", shift, options.max_shift);
   const double turn = Eigen::AngleAxisd(moved.linear()).angle();
   if (turn > options.max_turn)
-    return fmt::format("it turned by {:.1f} degrees, expected {:.1f} at most", turn * 180 / std::numbers::pi,
-                       options.max_turn * 180 / std::numbers::pi);
+    return fmt::format("it turned by {:.1f} degrees, expected {:.1f} at most", turn / degree,
+                       options.max_turn / degree);
   return "";
 }
 
@@ -98,10 +98,10 @@ void ProjectiveIcp::begin(const SurfaceMap& source, int step, const Eigen::Isome
                                                  static_cast<std::size_t>(source.window.height));
   partials_.make_room(room);
   const int rows = sampled(source.window.height, step);
-  auto measure = icp_kernel(*device_, "measure");
+  auto measure = projective_kernel(*device_, "measure");
   device_->run("icp", measure, static_cast<std::size_t>(rows), 1, size_of(source), step,
                source.points().device(*device_), partials_.write_device(*device_));
-  auto begin = icp_kernel(*device_, "begin");
+  auto begin = projective_kernel(*device_, "begin");
   device_->run("icp", begin, 1, 1, rows, partials_.device(*device_), values_of(start),
                state_.write_device(*device_));
 }
@@ -109,14 +109,14 @@ void ProjectiveIcp::begin(const SurfaceMap& source, int step, const Eigen::Isome
 void ProjectiveIcp::iterate(int number, const ProjectiveIcpLevel& level, const SurfaceMap& source,
                             const SurfaceMap& target) {
   const std::size_t runs = runs_of(source.window, level.step, device_->width());
-  auto accumulate = icp_kernel(*device_, "accumulate");
+  auto accumulate = projective_kernel(*device_, "accumulate");
   device_->run("icp", accumulate, runs, 1, number, size_of(source), level.step,
                source.points().device(*device_), source.normals().device(*device_), pinhole(target.camera),
                frame_of(target), target.points().device(*device_), target.normals().device(*device_),
                static_cast<cl_float>(level.max_distance), static_cast<cl_float>(level.noise),
                static_cast<cl_float>(std::cos(level.max_angle)), state_.device(*device_),
                partials_.write_device(*device_));
-  auto step = icp_kernel(*device_, "take_step");
+  auto step = projective_kernel(*device_, "take_step");
   const auto items = static_cast<std::size_t>(device_->work_group_size());
   device_->run("icp", step, items, items, number, static_cast<cl_int>(runs), partials_.device(*device_),
                static_cast<cl_float>(level.damping), static_cast<cl_float>(level.tolerance),

@@ -14,9 +14,9 @@ namespace pliant {
 namespace {
 
 constexpr std::size_t pose_size = 16;  // POSE_SIZE in rigid_icp.cl, and so on
-constexpr std::size_t pivot = 9;
-constexpr std::size_t status = 12;
-constexpr std::size_t iterations = 13;
+constexpr std::size_t pose_pivot = 9;
+constexpr std::size_t pose_status = 12;
+constexpr std::size_t pose_iterations = 13;
 
 constexpr int fewest_samples = 512;     // a level is no coarser than this
 constexpr int judged_samples = 1024;    // of the target, about
@@ -34,7 +34,7 @@ std::size_t chunks_of(int padded, int width) {
   return static_cast<std::size_t>((padded + chunk - 1) / chunk);
 }
 
-cl::Kernel icp_kernel(Device& device, const std::string& name) {
+cl::Kernel rigid_kernel(Device& device, const std::string& name) {
   static const std::string scalar = with_rigid_step(1, embedded::framework_pose_rigid_icp_cl);
   static const std::string vector = with_rigid_step(16, embedded::framework_pose_rigid_icp_cl);
   return device.kernel(device.width() == 1 ? scalar : vector, name);
@@ -81,7 +81,7 @@ void RigidIcp::pack(const SeenSurface& surface, int stride, Samples& samples) {
   samples.count = (available + stride - 1) / stride;
   samples.padded = vector_padded(samples.count, device_->width());
   samples.values.make_room(6 * static_cast<std::size_t>(samples.padded));
-  auto kernel = icp_kernel(*device_, "pack");
+  auto kernel = rigid_kernel(*device_, "pack");
   device_->run("icp", kernel, static_cast<std::size_t>(samples.padded), 16, available,
                surface.pixels.device(*device_), stride, surface.map.points().device(*device_),
                surface.map.normals().device(*device_), samples.padded, samples.values.write_device(*device_));
@@ -97,7 +97,7 @@ void RigidIcp::prepare(const SeenSurface& source, const SeenSurface& target) {
   pack(target, std::max(1, static_cast<int>(target.pixels.size()) / judged_samples), target_samples_);
   extents_.make_room(8);
   const Samples& coarse = levels_.front().samples;
-  auto kernel = icp_kernel(*device_, "measure");
+  auto kernel = rigid_kernel(*device_, "measure");
   device_->run("icp", kernel, 2, 1, coarse.padded, coarse.values.device(*device_), target_samples_.padded,
                target_samples_.values.device(*device_), extents_.write_device(*device_));
 }
@@ -113,7 +113,7 @@ void RigidIcp::set_out(const std::vector<Start>& starts) {
   }
   starts_ = Array<float>(std::move(values));
   poses_.make_room(pose_size * starts.size());
-  auto kernel = icp_kernel(*device_, "set_out");
+  auto kernel = rigid_kernel(*device_, "set_out");
   device_->run("icp", kernel, starts.size(), 1, static_cast<cl_int>(starts.size()), starts_.device(*device_),
                extents_.device(*device_), poses_.write_device(*device_));
 }
@@ -123,7 +123,7 @@ void RigidIcp::accumulate(const Level& level, int number, int poses, const SeenS
   const auto items = static_cast<std::size_t>(poses) * chunks_of(level.samples.padded, device_->width());
   const double angle = level.share * options_.coarse_angle + (1 - level.share) * options_.max_angle;
   partials_.make_room(rigid_sums * items);
-  auto kernel = icp_kernel(*device_, "accumulate");
+  auto kernel = rigid_kernel(*device_, "accumulate");
   device_->run("icp", kernel, items, 1, poses, number, level.samples.padded,
                level.samples.values.device(*device_), poses_.device(*device_), extents_.device(*device_),
                pinhole(target.map.camera), frame_of(target.map), target.map.points().device(*device_),
@@ -137,7 +137,7 @@ cl_float RigidIcp::trim_of(const Level& level) const {
 }
 
 void RigidIcp::refine(const Level& level, int poses, const SeenSurface& target) {
-  auto kernel = icp_kernel(*device_, "take_step");
+  auto kernel = rigid_kernel(*device_, "take_step");
   for (int i = 0; i < options_.iterations; ++i) {
     accumulate(level, level.number, poses, target);
     device_->run(
@@ -156,14 +156,14 @@ void RigidIcp::judge(int poses, const SeenSurface& source, const SeenSurface& ta
                      (chunks_of(coarse.padded, width) + chunks_of(target_samples_.padded, width));
   judged_.make_room(2 * items);
   residuals_.make_room(static_cast<std::size_t>(poses));
-  auto judge = icp_kernel(*device_, "judge");
+  auto judge = rigid_kernel(*device_, "judge");
   device_->run("icp", judge, items, 1, poses, coarse.padded, coarse.values.device(*device_),
                target_samples_.padded, target_samples_.values.device(*device_), poses_.device(*device_),
                extents_.device(*device_), pinhole(source.map.camera), frame_of(source.map),
                source.map.points().device(*device_), pinhole(target.map.camera), frame_of(target.map),
                target.map.points().device(*device_), static_cast<cl_float>(cut_share),
                judged_.write_device(*device_));
-  auto verdict = icp_kernel(*device_, "verdict");
+  auto verdict = rigid_kernel(*device_, "verdict");
   const cl_float2 fewest = {{static_cast<float>(std::max(1.0, fewest_known * coarse.count)),
                              static_cast<float>(std::max(1.0, fewest_known * target_samples_.count))}};
   device_->run("icp", verdict, static_cast<std::size_t>(poses), 1, poses, coarse.padded,
@@ -183,7 +183,7 @@ RigidIcpResult RigidIcp::align(const SeenSurface& source, const SeenSurface& tar
   if (tried > 1) {
     refine(levels_.front(), tried, target);
     judge(tried, source, target);
-    auto kernel = icp_kernel(*device_, "choose");
+    auto kernel = rigid_kernel(*device_, "choose");
     device_->run("icp", kernel, 1, 1, tried + 1, residuals_.device(*device_), poses_.write_device(*device_));
   }
   for (const Level& level : levels_)
@@ -229,7 +229,7 @@ std::vector<TwoWayResidual> RigidIcp::read_residuals(std::size_t count) {
 
 RigidEquations RigidIcp::read_sums() {
   sums_.make_room(rigid_sums);
-  auto kernel = icp_kernel(*device_, "add_up");
+  auto kernel = rigid_kernel(*device_, "add_up");
   device_->run("icp", kernel, 1, 1, levels_.back().samples.padded, partials_.device(*device_),
                sums_.write_device(*device_));
   std::array<float, rigid_sums> sums{};
@@ -246,7 +246,7 @@ RigidIcpResult RigidIcp::read_result() {
   device_->read(poses_.device(*device_), pose.data(), sizeof(pose));
   const Eigen::Matrix3f rotation = Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(pose.data());
   const Eigen::Quaterniond turn = Eigen::Quaterniond(rotation.cast<double>()).normalized();
-  const Eigen::Vector3d middle = Eigen::Map<Eigen::Vector3f>(pose.data() + pivot).cast<double>();
+  const Eigen::Vector3d middle = Eigen::Map<Eigen::Vector3f>(pose.data() + pose_pivot).cast<double>();
   result.pose = Eigen::Translation3d(middle) * turn * Eigen::Translation3d(-extent.head<3>());
   result.samples = levels_.back().samples.count;
   result.inliers = equations.matches;
@@ -254,9 +254,9 @@ RigidIcpResult RigidIcp::read_result() {
   result.after = residuals[0];
   result.before = residuals[1];
   result.conditioning = conditioning_of(eigenvalues_of(equations, extent[3]));
-  result.iterations = static_cast<int>(pose[iterations]);
-  result.converged = pose[status] == static_cast<float>(options_.levels);
-  explain(result, pose[status] < 0);
+  result.iterations = static_cast<int>(pose[pose_iterations]);
+  result.converged = pose[pose_status] == static_cast<float>(options_.levels);
+  explain(result, pose[pose_status] < 0);
   return result;
 }
 

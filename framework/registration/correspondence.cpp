@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "framework/core/angle.h"
 #include "framework/registration/matching.h"
 #include "framework/registration/projective.h"
 
@@ -196,7 +197,7 @@ namespace {
 
 /// Rows that all correspondences share, with defaults of their own.
 std::vector<Parameter> match_rows(const ProjectiveOptions& defaults) {
-  const auto degrees = [](double radians) { return std::round(radians * 180 / std::numbers::pi); };
+  const auto degrees = [](double radians) { return std::round(radians / degree); };
   return {
       real("max_distance", defaults.max_distance).unit("mm").above(0).doc("A match further away is rejected"),
       real("max_angle", degrees(defaults.max_angle))
@@ -219,8 +220,8 @@ std::vector<Parameter> match_rows(const ProjectiveOptions& defaults) {
 ProjectiveOptions read_match(const Parameters& parameters) {
   ProjectiveOptions options;
   options.max_distance = parameters.real("max_distance");
-  options.max_angle = parameters.real("max_angle") * std::numbers::pi / 180;
-  options.max_view_angle = parameters.real("max_view_angle") * std::numbers::pi / 180;
+  options.max_angle = parameters.real("max_angle") * degree;
+  options.max_view_angle = parameters.real("max_view_angle") * degree;
   options.rim = static_cast<int>(parameters.integer("rim"));
   return options;
 }
@@ -245,7 +246,7 @@ void register_closest(Registry& registry) {
   ProjectiveOptions defaults;
   defaults.max_distance = 40;
   defaults.max_angle = std::numbers::pi / 3;
-  defaults.max_view_angle = 80 * std::numbers::pi / 180;
+  defaults.max_view_angle = 80 * degree;
   defaults.rim = 2;
   std::vector<Parameter> rows = match_rows(defaults);
   rows.push_back(integer("steps", 4)

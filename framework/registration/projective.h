@@ -3,6 +3,7 @@
 #include <numbers>
 #include <optional>
 
+#include "framework/core/angle.h"
 #include "framework/registration/correspondence.h"
 
 namespace pliant {
@@ -10,9 +11,8 @@ namespace pliant {
 /// Which match a point gets and which it is denied. A point or pixel without a normal is judged by distance
 /// alone.
 struct ProjectiveOptions {
-  double max_distance = 100;  ///< mm; a match further away is rejected
-  double max_angle =
-      75 * std::numbers::pi / 180;  ///< radians; a match whose normals differ by more is rejected
+  double max_distance = 100;       ///< mm; a match further away is rejected
+  double max_angle = 75 * degree;  ///< radians; a match whose normals differ by more is rejected
   /// Radians between a point's normal and the way to the camera; a point turned further away cannot be seen
   /// and has no match.
   double max_view_angle = std::numbers::pi / 2;

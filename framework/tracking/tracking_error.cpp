@@ -5,13 +5,13 @@
 #include <limits>
 #include <string>
 
+#include "framework/core/angle.h"
 #include "framework/tracking/tracking_error.cl.embed.h"
 
 namespace pliant {
 namespace {
 
 constexpr std::size_t work_group = 64;
-constexpr double degree = std::numbers::pi / 180;
 
 cl::Kernel error_kernel(Device& device, const std::string& name) {
   return device.kernel(embedded::framework_tracking_tracking_error_cl, name);

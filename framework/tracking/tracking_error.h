@@ -1,9 +1,9 @@
 #pragma once
 
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "framework/core/angle.h"
 #include "framework/core/parameters.h"
 #include "framework/device/array.h"
 #include "framework/geometry/surface_map.h"
@@ -16,7 +16,7 @@ namespace pliant {
 struct TrackingErrorOptions {
   double max_distance = 30;  ///< mm; what is further apart in depth does not belong together
   /// Radians between a point's normal and the way to the camera; depth tells little of what turns away more.
-  double max_view_angle = 75 * std::numbers::pi / 180;
+  double max_view_angle = 75 * degree;
   /// Pixels; the mean over so many to each side counts: noise is averaged out, a deformation is not. 0: none
   /// is.
   int radius = 3;

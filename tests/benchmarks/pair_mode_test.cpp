@@ -5,7 +5,7 @@
 
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using nlohmann::json;
@@ -60,4 +60,4 @@ TEST_F(PairModeTest, DataThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -4,7 +4,7 @@
 
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 class RelocalisationModeTest : public ProgramTest {};
@@ -22,4 +22,4 @@ TEST_F(RelocalisationModeTest, FindsTheHeadWhereItLeapsTo) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -4,7 +4,7 @@
 
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 class RenderModeTest : public ProgramTest {};
@@ -23,4 +23,4 @@ TEST_F(RenderModeTest, TimesFramesBesideTheReference) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

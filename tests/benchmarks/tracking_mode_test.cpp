@@ -4,7 +4,7 @@
 
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 class TrackingModeTest : public ProgramTest {};
@@ -56,4 +56,4 @@ TEST_F(TrackingModeTest, TracksASequenceByAPolicy) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

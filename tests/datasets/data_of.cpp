@@ -10,7 +10,7 @@
 #include "framework/core/error.h"
 #include "framework/io/file.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 std::unique_ptr<FrameSource> data_of(const std::string& section) {
   const auto path =
@@ -46,4 +46,4 @@ std::string config_error_of(const std::string& section) {
   return "";
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -5,7 +5,7 @@
 
 #include "experiments/datasets/frame_source.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// The frame source that a section of an experiment file describes, e.g. "{type: synthetic_sheet, noise: 1}".
 std::unique_ptr<FrameSource> data_of(const std::string& section);
@@ -23,4 +23,4 @@ LoadedPair load(const FrameSource& source, std::uint64_t seed);
 /// The message of the ConfigError that this throws, "" with a failure when it throws none.
 std::string config_error_of(const std::string& section);
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

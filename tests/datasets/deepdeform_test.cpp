@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// Frames 0, 40 and 80 of which the first has a mask of a shirt, whose motion to frame 80 is known.
-class DeepDeformFolder : public testing::SequenceFiles {
+class DeepDeformFolder : public test::SequenceFiles {
  protected:
   DeepDeformFolder() {
     for (const char* name : {"depth", "color", "mask", "scene_flow"}) make_folder(name);
@@ -54,11 +54,11 @@ TEST_F(DeepDeformFolder, IsAStreamWithTheMotionThatIsKnown) {
 }
 
 TEST_F(DeepDeformFolder, OrAPairByTheNumbersOfItsFiles) {
-  const auto pair = testing::load(*testing::data_of(section(", source: 0, target: 80")), 0);
+  const auto pair = test::load(*test::data_of(section(", source: 0, target: 80")), 0);
   EXPECT_EQ(pair.source.depth(0, 0), 801);
   EXPECT_EQ(pair.target.depth(0, 0), 1001);
   EXPECT_EQ(pair.motion(7, 7), Eigen::Vector3f(0, 0, 200));
-  const auto back = testing::load(*testing::data_of(section(", source: 80, target: 0")), 0);
+  const auto back = test::load(*test::data_of(section(", source: 80, target: 0")), 0);
   EXPECT_EQ(back.source.depth(0, 0), 1001);
   EXPECT_FALSE(back.truth);
 }
@@ -76,7 +76,7 @@ TEST_F(DeepDeformFolder, OpticalFlowAndWhatIsSeenAreReadWithTheMotion) {
   EXPECT_EQ(truth.visible.pixels(), visible.pixels());
   write_optical_flow(file("optical_flow/shirt_000000_000080.oflow"),
                      Image<Eigen::Vector2f>(2, 3, Eigen::Vector2f(3, 4)));
-  EXPECT_THAT(testing::data_error_of([&] { open(section())->truth(3); }),
+  EXPECT_THAT(test::data_error_of([&] { open(section())->truth(3); }),
               AllOf(HasSubstr("shirt_000000_000080.oflow: 2x3"), HasSubstr("40x30")));
 }
 
@@ -118,15 +118,15 @@ TEST_F(DeepDeformFolder, WhatIsMissingIsNamed) {
 TEST_F(DeepDeformFolder, WhatDoesNotFitIsNamed) {
   write_scene_flow(file("scene_flow/shirt_000000_000080.sflow"),
                    Image<Eigen::Vector3f>(2, 2, Eigen::Vector3f::Zero()));
-  EXPECT_THAT(testing::data_error_of([&] { open(section())->truth(3); }),
+  EXPECT_THAT(test::data_error_of([&] { open(section())->truth(3); }),
               AllOf(HasSubstr("shirt_000000_000080.sflow: 2x2"), HasSubstr("40x30")));
   write_depth(file("depth/x.png"), slope(800));
   EXPECT_THAT(error_of(section()), HasSubstr("x.png: the name of a frame is no number"));
 }
 
 TEST_F(DeepDeformFolder, APairIsTwoFrames) {
-  EXPECT_THAT(testing::config_error_of(section(", source: 0")), HasSubstr("'target' is missing"));
-  EXPECT_THAT(testing::config_error_of(section(", source: 0, target: 0")), HasSubstr("are both 0"));
+  EXPECT_THAT(test::config_error_of(section(", source: 0")), HasSubstr("'target' is missing"));
+  EXPECT_THAT(test::config_error_of(section(", source: 0, target: 0")), HasSubstr("are both 0"));
 }
 
 TEST_F(DeepDeformFolder, DepthInTheUnitOfTumIsDoubted) {
@@ -137,7 +137,7 @@ TEST_F(DeepDeformFolder, DepthInTheUnitOfTumIsDoubted) {
 
 /// The files of the real pair, laid out as the data set has them.
 TEST_F(DeepDeformFolder, ARealPairIsRead) {
-  const std::string data = testing::real_data("deepdeform_seq258");
+  const std::string data = test::real_data("deepdeform_seq258");
   if (data.empty()) GTEST_SKIP() << "deepdeform_seq258 is not below PLIANT_DATA";
   const auto lay_out = [&](const std::string& from, const std::string& to) {
     std::filesystem::create_directories(std::filesystem::path(file(to)).parent_path());
@@ -150,8 +150,8 @@ TEST_F(DeepDeformFolder, ARealPairIsRead) {
   lay_out("000000_shirt.png", "seq258/mask/000000_shirt.png");
   lay_out("shirt_000000_000110.sflow", "seq258/scene_flow/shirt_000000_000110.sflow");
   lay_out("intrinsics.txt", "seq258/intrinsics.txt");
-  const auto pair = testing::load(
-      *testing::data_of("{type: deepdeform, folder: '" + file("seq258") + "', source: 0, target: 110}"), 0);
+  const auto pair = test::load(
+      *test::data_of("{type: deepdeform, folder: '" + file("seq258") + "', source: 0, target: 110}"), 0);
   EXPECT_EQ(pair.name, "seq258, 0 to 110");
   EXPECT_EQ(pair.camera.width, 640);
   EXPECT_FALSE(pair.source.mask.empty());

@@ -11,7 +11,7 @@
 namespace pliant {
 namespace {
 
-using testing::shared_device;
+using test::shared_device;
 
 const Camera kCamera{525, 525, 79.5, 59.5, 160, 120};
 

@@ -11,13 +11,13 @@
 namespace pliant {
 namespace {
 
-using testing::data_error_of;
-using testing::data_of;
-using testing::shared_device;
+using test::data_error_of;
+using test::data_of;
+using test::shared_device;
 
-class FollowedPoints : public testing::TestFiles {
+class FollowedPoints : public test::TestFiles {
  protected:
-  FollowedPoints() { write("square.glb", testing::square_glb().bytes()); }
+  FollowedPoints() { write("square.glb", test::square_glb().bytes()); }
 
   /// A stream of the square of 200 mm, 700 mm away, with some keys.
   std::unique_ptr<DataStream> stream_of(const std::string& keys) const {

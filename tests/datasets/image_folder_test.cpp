@@ -26,7 +26,7 @@ TEST(NaturalOrder, CountsNumbersAsSuch) {
 }
 
 /// Frames 9, 10 and 11 with colour, and a mask for the first.
-class ImageFolderFiles : public testing::SequenceFiles {
+class ImageFolderFiles : public test::SequenceFiles {
  protected:
   ImageFolderFiles() {
     make_folder("depth");
@@ -100,28 +100,28 @@ TEST_F(ImageFolderFiles, AFrameThatSeesNothingIsOneAndAWarningTells) {
   EXPECT_THAT(stream->warnings(),
               ElementsAre(HasSubstr("2 of 3 frames have no mask"),
                           AllOf(HasSubstr("2 of 3 frames see nothing"), HasSubstr("d9.png"))));
-  EXPECT_THAT(testing::data_error_of([&] { testing::load(*testing::data_of(section(", first: 2")), 0); }),
+  EXPECT_THAT(test::data_error_of([&] { test::load(*test::data_of(section(", first: 2")), 0); }),
               HasSubstr("the source sees nothing"))
       << "a pair of it is an error";
 }
 
 TEST_F(ImageFolderFiles, PatternsAndCameraAreChecked) {
   for (const char* pattern : {"depth.png", "*/d.png", "d*_*.png"})
-    EXPECT_THAT(testing::config_error_of(section(fmt::format(", mask: '{}'", pattern))),
+    EXPECT_THAT(test::config_error_of(section(fmt::format(", mask: '{}'", pattern))),
                 AllOf(HasSubstr("'mask'"), HasSubstr("expected one *")));
-  EXPECT_THAT(testing::config_error_of("{type: folder, folder: '" + file("") + "'}"),
+  EXPECT_THAT(test::config_error_of("{type: folder, folder: '" + file("") + "'}"),
               HasSubstr("the camera is missing"));
 }
 
 TEST_F(ImageFolderFiles, RealOnesAreRead) {
-  const std::string pipe = testing::real_data("bent_pipe");
+  const std::string pipe = test::real_data("bent_pipe");
   if (pipe.empty()) GTEST_SKIP() << "bent_pipe is not below PLIANT_DATA";
   const auto stream = open(fmt::format(
       "{{type: folder, folder: '{}', color: color/*.jpg, fx: 525, fy: 525, cx: 320, cy: 240, step: 40}}",
       pipe));
   EXPECT_EQ(frames_of(*stream).size(), 2U);
   EXPECT_THAT(stream->warnings(), IsEmpty());
-  const std::string room = testing::real_data("icl_livingroom60");
+  const std::string room = test::real_data("icl_livingroom60");
   if (room.empty()) GTEST_SKIP() << "icl_livingroom60 is not below PLIANT_DATA";
   EXPECT_EQ(frames_of(*open(fmt::format("{{type: folder, folder: '{0}', color: color/*.jpg, intrinsics: "
                                         "'{0}/intrinsics.txt', first: 2, step: 20}}",

@@ -14,23 +14,23 @@
 namespace pliant {
 namespace {
 
+using test::config_error_of;
+using test::data_error_of;
+using test::data_of;
+using test::load;
+using test::LoadedPair;
+using test::shared_device;
 using ::testing::AllOf;
-using testing::config_error_of;
-using testing::data_error_of;
-using testing::data_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::load;
-using testing::LoadedPair;
-using testing::shared_device;
 
 /// The square of 200 mm of square_glb() and the strip of rigged_glb().
-class MeshSources : public testing::TestFiles {
+class MeshSources : public test::TestFiles {
  protected:
   MeshSources() {
-    write("square.glb", testing::square_glb().bytes());
-    write("strip.glb", testing::RiggedGlb().bytes());
+    write("square.glb", test::square_glb().bytes());
+    write("strip.glb", test::RiggedGlb().bytes());
   }
 
   std::string section(const std::string& rest, const std::string& name = "square.glb") const {

@@ -15,8 +15,8 @@
 namespace pliant {
 namespace {
 
-using testing::data_of;
-using testing::shared_device;
+using test::data_of;
+using test::shared_device;
 
 // A fifth of the usual image.
 const std::string camera = "image_width: 128, image_height: 96, focal_length: 105";
@@ -121,10 +121,10 @@ TEST(MeshTruth, IsTrueOfEveryFigureInEveryPose) {
   }
 }
 
-class MeshTruthOfFiles : public testing::TestFiles {};
+class MeshTruthOfFiles : public test::TestFiles {};
 
 TEST_F(MeshTruthOfFiles, IsTrueOfMorphTargets) {
-  write("square.glb", testing::square_glb().bytes());
+  write("square.glb", test::square_glb().bytes());
   const Counts counts =
       check_truth("{type: gltf, mesh: " + file("square.glb") +
                       ", target: [bulge=3, slide=1], motion: {rotation_x: 20}, " + camera + "}",
@@ -134,7 +134,7 @@ TEST_F(MeshTruthOfFiles, IsTrueOfMorphTargets) {
 }
 
 TEST_F(MeshTruthOfFiles, IsTrueOfASkin) {
-  write("strip.glb", testing::RiggedGlb().bytes());
+  write("strip.glb", test::RiggedGlb().bytes());
   const Counts counts = check_truth(
       "{type: gltf, mesh: " + file("strip.glb") + ", target: [bone.x=25, bone.z=30], " + camera + "}", 1);
   EXPECT_GT(counts.visible, 100);
@@ -143,7 +143,7 @@ TEST_F(MeshTruthOfFiles, IsTrueOfASkin) {
 
 // The camera turns and comes nearer while the mesh turns the other way.
 TEST_F(MeshTruthOfFiles, IsTrueWhereTheCameraMoves) {
-  write("square.glb", testing::square_glb().bytes());
+  write("square.glb", test::square_glb().bytes());
   const Counts counts = check_truth(
       "{type: gltf, mesh: " + file("square.glb") + ", " + camera +
           ", keys: {a: {at: 0}, b: {at: 1, pose: [bulge=2], motion: {rotation_y: -25}, "

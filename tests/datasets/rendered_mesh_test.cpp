@@ -14,25 +14,25 @@
 namespace pliant {
 namespace {
 
+using test::config_error_of;
+using test::data_error_of;
+using test::data_of;
+using test::LoadedPair;
 using ::testing::AllOf;
-using testing::config_error_of;
-using testing::data_error_of;
-using testing::data_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::LoadedPair;
 
 /// The square of 200 mm of square_glb(), whose targets are "bulge" and "slide", seen from 700 mm.
-class RenderedSquare : public testing::TestFiles {
+class RenderedSquare : public test::TestFiles {
  protected:
-  RenderedSquare() { write("square.glb", testing::square_glb().bytes()); }
+  RenderedSquare() { write("square.glb", test::square_glb().bytes()); }
 
   std::string section(const std::string& rest = "") const {
     return "{type: rendered_mesh, mesh: " + file("square.glb") + rest + "}";
   }
   LoadedPair load(const std::string& rest, std::uint64_t seed = 1) const {
-    return testing::load(*data_of(section(rest)), seed);
+    return test::load(*data_of(section(rest)), seed);
   }
 };
 
@@ -144,7 +144,7 @@ TEST_F(RenderedSquare, AMeshInAnotherUnitIsToldWithItsSize) {
 }
 
 TEST_F(RenderedSquare, ACameraInsideTheMeshIsAnError) {
-  auto glb = testing::square_glb();
+  auto glb = test::square_glb();
   glb.json["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"mesh", 0}, {"translation", {0, 0, 2}}}};
   write("square.glb", glb.bytes());
   EXPECT_THAT(data_error_of([&] { load(""); }),
@@ -172,11 +172,11 @@ void PrintTo(const FacePair& pair, std::ostream* out) { *out << pair.expression;
 class RenderedFace : public ::testing::TestWithParam<FacePair> {};
 
 TEST_P(RenderedFace, StartsWhereItsPeersStarted) {
-  const std::string mesh = testing::real_data("ict_face/ict_face.glb");
+  const std::string mesh = test::real_data("ict_face/ict_face.glb");
   if (mesh.empty()) GTEST_SKIP() << "ict_face/ict_face.glb is not below PLIANT_DATA";
-  const LoadedPair pair = testing::load(*data_of("{type: rendered_mesh, noise: 0.375, mesh: " + mesh +
-                                                 ", target: " + GetParam().expression + "}"),
-                                        1);
+  const LoadedPair pair = test::load(*data_of("{type: rendered_mesh, noise: 0.375, mesh: " + mesh +
+                                              ", target: " + GetParam().expression + "}"),
+                                     1);
   const Surface source = make_surface(make_surface_image(pair.source, pair.camera), pair.source.color);
   EXPECT_NEAR(static_cast<double>(source.size()), 30281, 100);
   const Evaluation evaluation(pair, pair.truth, source, make_surface_image(pair.target, pair.camera));

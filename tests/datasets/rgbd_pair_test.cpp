@@ -12,8 +12,8 @@
 namespace pliant {
 namespace {
 
+using test::data_error_of;
 using ::testing::AllOf;
-using testing::data_error_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -22,7 +22,7 @@ constexpr int kWidth = 40;
 constexpr int kHeight = 30;
 
 /// Two good frames of 40x30 pixels in a folder; every test spoils one file.
-class RgbdPairFiles : public testing::TestFiles {
+class RgbdPairFiles : public test::TestFiles {
  protected:
   RgbdPairFiles() {
     write_depth(file("a.png"), DepthImage(kWidth, kHeight, 800));
@@ -38,7 +38,7 @@ class RgbdPairFiles : public testing::TestFiles {
     settings_.scene_flow = file("truth.sflow");
   }
 
-  testing::LoadedPair load() const { return testing::load(RgbdPair(settings_), 0); }
+  test::LoadedPair load() const { return test::load(RgbdPair(settings_), 0); }
   std::string error() const {
     return data_error_of([&] { load(); });
   }
@@ -47,7 +47,7 @@ class RgbdPairFiles : public testing::TestFiles {
 };
 
 TEST_F(RgbdPairFiles, AreReadAsTheyAre) {
-  const testing::LoadedPair pair = load();
+  const test::LoadedPair pair = load();
   EXPECT_EQ(pair.name, "a to b");
   EXPECT_EQ(pair.source.depth(3, 4), 800);
   EXPECT_EQ(pair.target.depth(3, 4), 810);
@@ -63,10 +63,10 @@ TEST_F(RgbdPairFiles, DescribeTheSameInAnExperimentFile) {
   DepthImage depth(kWidth, kHeight, 810);
   depth(5, 6) = 816;
   write_depth(file("b.png"), depth);
-  const testing::LoadedPair pair = testing::load(
-      *testing::data_of("{type: rgbd_pair, source: {depth: " + file("a.png") + "}, target: {depth: " +
-                        file("b.png") + "}, intrinsics: " + file("k.txt") + ", max_depth: 815}"),
-      0);
+  const test::LoadedPair pair =
+      test::load(*test::data_of("{type: rgbd_pair, source: {depth: " + file("a.png") + "}, target: {depth: " +
+                                file("b.png") + "}, intrinsics: " + file("k.txt") + ", max_depth: 815}"),
+                 0);
   EXPECT_EQ(pair.source.depth(3, 4), 800);
   EXPECT_EQ(pair.target.depth(3, 4), 810);
   EXPECT_EQ(pair.target.depth(5, 6), 0) << "farther than max_depth";
@@ -89,7 +89,7 @@ TEST_F(RgbdPairFiles, DepthMayBeInAnotherUnit) {
   write_depth(file("a.png"), ramp(4000, 1));
   write_depth(file("b.png"), ramp(4000, 1));
   settings_.depth_scale = 0.2;
-  const testing::LoadedPair pair = load();
+  const test::LoadedPair pair = load();
   EXPECT_EQ(pair.source.depth(0, 0), 800);
   EXPECT_FLOAT_EQ(pair.target.depth(1, 0), 800.2F);
   EXPECT_THAT(pair.warnings, IsEmpty());
@@ -240,7 +240,7 @@ class RgbdPairWithColorCamera : public RgbdPairFiles {
 };
 
 TEST_F(RgbdPairWithColorCamera, CarriesColourToTheDepth) {
-  const testing::LoadedPair pair = load();
+  const test::LoadedPair pair = load();
   EXPECT_EQ(pair.source.color.width(), kWidth);
   EXPECT_EQ(pair.target.color.height(), kHeight);
   for (const int u : {4, 20, 39})
@@ -250,7 +250,7 @@ TEST_F(RgbdPairWithColorCamera, CarriesColourToTheDepth) {
 }
 
 TEST_F(RgbdPairWithColorCamera, GivesTheStreamAsItWasSeen) {
-  const auto stream = RgbdPair(settings_).open(testing::shared_device(), 0);
+  const auto stream = RgbdPair(settings_).open(test::shared_device(), 0);
   EXPECT_EQ(stream->rig().depth.width, kWidth);
   EXPECT_EQ(stream->rig().color.value().width, 2 * kWidth);
   EXPECT_EQ(stream->rig().color_from_depth.translation(), Eigen::Vector3d(-50, 0, 0));
@@ -259,9 +259,9 @@ TEST_F(RgbdPairWithColorCamera, GivesTheStreamAsItWasSeen) {
 }
 
 TEST_F(RgbdPairWithColorCamera, IsReadFromAnExperimentFile) {
-  const auto pair = testing::load(
-      *testing::data_of(section(color_intrinsics() +
-                                ", color_from_depth: [1, 0, 0, -50, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]")),
+  const auto pair = test::load(
+      *test::data_of(section(color_intrinsics() +
+                             ", color_from_depth: [1, 0, 0, -50, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]")),
       0);
   EXPECT_EQ(pair.source.color.pixels(), load().source.color.pixels());
   EXPECT_TRUE(pair.target.color.empty());
@@ -269,22 +269,20 @@ TEST_F(RgbdPairWithColorCamera, IsReadFromAnExperimentFile) {
 
 TEST_F(RgbdPairWithColorCamera, ItsDescriptionIsWholeAndRigid) {
   const std::string unmoved = ", color_from_depth: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]";
-  EXPECT_THAT(testing::config_error_of(section(color_intrinsics())),
-              HasSubstr("'color_from_depth' is missing"));
-  EXPECT_THAT(testing::config_error_of(section(unmoved)), HasSubstr("'color_intrinsics' is missing"));
+  EXPECT_THAT(test::config_error_of(section(color_intrinsics())), HasSubstr("'color_from_depth' is missing"));
+  EXPECT_THAT(test::config_error_of(section(unmoved)), HasSubstr("'color_intrinsics' is missing"));
   // Column by column, scaled, mirrored.
   for (const std::string numbers :
        {"1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -50, 0, 0, 1", "2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1",
         "-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1"})
-    EXPECT_THAT(
-        testing::config_error_of(section(color_intrinsics() + ", color_from_depth: [" + numbers + "]")),
-        AllOf(HasSubstr(".yaml:1:"), HasSubstr("'color_from_depth' is no rigid motion")));
-  EXPECT_THAT(testing::config_error_of(section(color_intrinsics() + ", color_from_depth: [1, 0, 0]")),
+    EXPECT_THAT(test::config_error_of(section(color_intrinsics() + ", color_from_depth: [" + numbers + "]")),
+                AllOf(HasSubstr(".yaml:1:"), HasSubstr("'color_from_depth' is no rigid motion")));
+  EXPECT_THAT(test::config_error_of(section(color_intrinsics() + ", color_from_depth: [1, 0, 0]")),
               HasSubstr("has 3 items"));
   std::string colorless = section(color_intrinsics() + unmoved);
   const std::string color = ", color: " + file("a_color.png");
   colorless.erase(colorless.find(color), color.size());
-  EXPECT_THAT(testing::config_error_of(colorless), HasSubstr("without a 'color'"));
+  EXPECT_THAT(test::config_error_of(colorless), HasSubstr("without a 'color'"));
 }
 
 TEST_F(RgbdPairWithColorCamera, ADistanceInMetresIsDoubted) {

@@ -8,7 +8,7 @@
 #include "tests/datasets/data_of.h"
 #include "tests/io/test_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// Small images of a sequence in folders of their own. Frame i is a slope that is 100 i units farther in its
 /// files.
@@ -44,4 +44,4 @@ class SequenceFiles : public TestFiles {
   }
 };
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -16,16 +16,16 @@
 namespace pliant {
 namespace {
 
-using testing::data_error_of;
-using testing::data_of;
+using test::data_error_of;
+using test::data_of;
+using test::shared_device;
 using ::testing::HasSubstr;
-using testing::shared_device;
 
 const std::string scene =
     "{type: hand, image_width: 96, image_height: 72, focal_length: 79.5, keys: {open: {at: 0}, "
     "fist: {at: 0.07, pose: [fist=1], camera: {look_from: [100, 0, 0]}}}}";
 
-class SequenceWriterTest : public testing::TestFiles {
+class SequenceWriterTest : public test::TestFiles {
  protected:
   int write_scene(SequenceLayout layout) const {
     return write_sequence(*data_of(scene)->open(shared_device(), 1), layout, file("out")).frames;
@@ -91,8 +91,7 @@ TEST_F(SequenceWriterTest, TumHasListsAndTheCamerasWay) {
 TEST_F(SequenceWriterTest, IsReadAgainByTheSourcesOfTheLayouts) {
   const auto made = frames();
   write_scene(SequenceLayout::deepdeform);
-  const testing::LoadedPair pair =
-      testing::load(*data_of("{type: deepdeform, folder: " + file("out") + "}"), 1);
+  const test::LoadedPair pair = test::load(*data_of("{type: deepdeform, folder: " + file("out") + "}"), 1);
   EXPECT_EQ(pair.camera.fx, 79.5);
   ASSERT_TRUE(pair.truth);
   int known = 0;
@@ -103,7 +102,7 @@ TEST_F(SequenceWriterTest, IsReadAgainByTheSourcesOfTheLayouts) {
   EXPECT_GT(known, 500);
   std::filesystem::remove_all(file("out"));
   write_scene(SequenceLayout::tum);
-  const testing::LoadedPair tum = testing::load(
+  const test::LoadedPair tum = test::load(
       *data_of("{type: tum, folder: " + file("out") + ", intrinsics: " + file("out/intrinsics.txt") + "}"),
       1);
   for (std::size_t i = 0; i < tum.target.depth.size(); ++i)

@@ -9,14 +9,14 @@
 namespace pliant {
 namespace {
 
+using test::data_error_of;
 using ::testing::AllOf;
-using testing::data_error_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// A square of 200 mm that looks along +z, in metres, and the same 20 mm nearer to who looks at it.
-class SurfacePairFiles : public testing::TestFiles {
+class SurfacePairFiles : public test::TestFiles {
  protected:
   SurfacePairFiles() {
     write("a.obj", square(0.1, 0));
@@ -36,8 +36,8 @@ class SurfacePairFiles : public testing::TestFiles {
         "60{}}}",
         file("a.obj"), file("b.obj"), rest);
   }
-  testing::LoadedPair load(const std::string& rest = "") const {
-    return testing::load(*testing::data_of(section(rest)), 0);
+  test::LoadedPair load(const std::string& rest = "") const {
+    return test::load(*test::data_of(section(rest)), 0);
   }
   std::string error(const std::string& rest = "") const {
     return data_error_of([&] { load(rest); });
@@ -92,11 +92,11 @@ TEST_F(SurfacePairFiles, SuspiciousSizesAreDoubted) {
     other.replace(other.find("unit: 1000"), 10, "unit: " + unit);
     return other;
   };
-  EXPECT_THAT(testing::load(*testing::data_of(in_unit("1e5")), 0).warnings,
+  EXPECT_THAT(test::load(*test::data_of(in_unit("1e5")), 0).warnings,
               ElementsAre(AllOf(HasSubstr("a.obj: it is 20000 x 20000 x 0 mm"),
                                 HasSubstr("another unit than 100000 mm")),
                           HasSubstr("b.obj")));
-  EXPECT_THAT(data_error_of([&] { testing::load(*testing::data_of(in_unit("1")), 0); }),
+  EXPECT_THAT(data_error_of([&] { test::load(*test::data_of(in_unit("1")), 0); }),
               HasSubstr("it is 0.2 x 0.2 x 0 mm; if the file counts in another unit than 1 mm"));
   write("b.obj", square(0.4, 0));
   EXPECT_THAT(load().warnings,
@@ -113,7 +113,7 @@ TEST_F(SurfacePairFiles, WhatIsNoSurfaceOrNoCameraIsAnError) {
   EXPECT_THROW(load(", cx: -3"), ConfigError);
   write("b.obj", std::string("v 0 0 0\n"));
   EXPECT_THAT(error(), HasSubstr("b.obj: 1 vertices without faces"));
-  EXPECT_THAT(testing::config_error_of(
+  EXPECT_THAT(test::config_error_of(
                   section(", camera_from_surface: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]")),
               HasSubstr("no rigid motion"));
 }

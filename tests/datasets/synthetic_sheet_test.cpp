@@ -13,12 +13,12 @@
 namespace pliant {
 namespace {
 
-using testing::config_error_of;
-using testing::data_of;
+using test::config_error_of;
+using test::data_of;
+using test::load;
+using test::LoadedPair;
+using test::shared_device;
 using ::testing::HasSubstr;
-using testing::load;
-using testing::LoadedPair;
-using testing::shared_device;
 
 using Check = std::function<void(int u, int v, const Eigen::Vector3d& point, const Eigen::Vector3d& motion)>;
 

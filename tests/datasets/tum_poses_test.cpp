@@ -15,11 +15,11 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-class TumPosesFile : public testing::SequenceFiles {
+class TumPosesFile : public test::SequenceFiles {
  protected:
   TumPoses poses(const std::string& text) const { return TumPoses(write("groundtruth.txt", text)); }
   std::string error_with(const std::string& text) const {
-    return testing::data_error_of([&] { poses(text); });
+    return test::data_error_of([&] { poses(text); });
   }
 };
 

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// Five frames at 30 a second; colour comes 10 ms after its depth.
-class TumFolder : public testing::SequenceFiles {
+class TumFolder : public test::SequenceFiles {
  protected:
   TumFolder() {
     make_folder("depth");
@@ -109,8 +109,8 @@ TEST_F(TumFolder, TheCameraIsGivenOnceAndWhole) {
   write("k.txt", std::string("50 0 19.5\n0 50 14.5\n0 0 1\n"));
   const std::string folder = "{type: tum, folder: '" + file("") + "', ";
   EXPECT_EQ(open(folder + "intrinsics: '" + file("k.txt") + "'}")->rig().depth.cx, 19.5);
-  EXPECT_THAT(testing::config_error_of(folder + "fx: 50, fy: 50, cx: 1}"), HasSubstr("'cy' is missing"));
-  EXPECT_THAT(testing::config_error_of(folder + "fx: 50, intrinsics: '" + file("k.txt") + "'}"),
+  EXPECT_THAT(test::config_error_of(folder + "fx: 50, fy: 50, cx: 1}"), HasSubstr("'cy' is missing"));
+  EXPECT_THAT(test::config_error_of(folder + "fx: 50, intrinsics: '" + file("k.txt") + "'}"),
               HasSubstr("both 'intrinsics' and numbers"));
   EXPECT_THAT(error_of(folder + "camera: freiburg2}"),
               AllOf(HasSubstr("camera: freiburg2"), HasSubstr("40x30")));

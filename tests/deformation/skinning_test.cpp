@@ -11,6 +11,7 @@
 #include <set>
 
 #include "framework/core/error.h"
+#include "framework/geometry/point_set.h"
 #include "tests/device/shapes.h"
 
 namespace pliant {
@@ -28,12 +29,6 @@ Points random_points(std::size_t count, unsigned seed) {
     point.z() = deep(generator);
   }
   return points;
-}
-
-std::vector<float> flat(const Points& points) {
-  std::vector<float> values;
-  for (const auto& point : points) values.insert(values.end(), point.data(), point.data() + 3);
-  return values;
 }
 
 /// Distances from a point to its influencing nodes, nearest first; they, unlike the nodes, are the same in
@@ -61,13 +56,13 @@ void expect_weights_sum_to_one(const Influences& influences, std::size_t points)
 class SkinningTest : public testing::TestWithParam<DeviceOptions> {
  protected:
   Influences on_device(const Points& points, const Points& nodes, int k) {
-    return compute_influences(device_, Array<float>(flat(points)), nodes, k);
+    return compute_influences(device_, flatten(points), nodes, k);
   }
 
   void expect_same_as_reference(const Points& points, const Points& nodes, int k) {
     SCOPED_TRACE(testing::Message() << nodes.size() << " nodes, k = " << k);
     const auto found = on_device(points, nodes, k);
-    const auto expected = compute_influences_reference(flat(points), nodes, k);
+    const auto expected = compute_influences_reference(flatten(points).host(), nodes, k);
     ASSERT_EQ(found.per_point, std::min(k, static_cast<int>(nodes.size())));
     ASSERT_EQ(found.per_point, expected.per_point);
     EXPECT_THAT(distances(found, points, nodes),
@@ -85,7 +80,7 @@ class SkinningTest : public testing::TestWithParam<DeviceOptions> {
         points.emplace_back(2 * x + 1, 2 * y + 1, 0);
       }
     const auto found = on_device(points, nodes, k);
-    const auto expected = compute_influences_reference(flat(points), nodes, k);
+    const auto expected = compute_influences_reference(flatten(points).host(), nodes, k);
     EXPECT_EQ(found.nodes.host(), expected.nodes.host()) << "k = " << k;
     EXPECT_THAT(found.weights.host(), testing::Pointwise(testing::FloatNear(1e-6F), expected.weights.host()));
   }
@@ -125,8 +120,8 @@ TEST_P(SkinningForEveryK, NoMoreNodesThanAskedForMoveEveryPointTogether) {
 
 TEST_P(SkinningTest, OneNodeAloneWeighsOne) {
   const Points points{{0, 0, 0}, {1, 2, 3}, {5, 5, 5}};
-  for (const auto& found :
-       {on_device(points, {{5, 5, 5}}, 4), compute_influences_reference(flat(points), {{5, 5, 5}}, 4)}) {
+  for (const auto& found : {on_device(points, {{5, 5, 5}}, 4),
+                            compute_influences_reference(flatten(points).host(), {{5, 5, 5}}, 4)}) {
     EXPECT_EQ(found.per_point, 1);
     EXPECT_THAT(found.nodes.host(), testing::ElementsAre(0, 0, 0));
     EXPECT_THAT(found.weights.host(), testing::ElementsAre(1, 1, 1));
@@ -147,7 +142,7 @@ TEST_P(SkinningTest, WeightsNeedANodeAndAPossibleNumberOfThem) {
   EXPECT_THROW(on_device(points, random_points(30, 6), 0), DataError);
   EXPECT_THROW(on_device(points, random_points(30, 6), max_influences + 1), DataError);
   EXPECT_THROW(on_device(points, {}, 4), DataError);
-  EXPECT_THROW(compute_influences_reference(flat(points), {}, 4), DataError);
+  EXPECT_THROW(compute_influences_reference(flatten(points).host(), {}, 4), DataError);
 }
 
 TEST_P(SkinningTest, PicksTheInfluencesOfSomePoints) {
@@ -184,7 +179,7 @@ TEST_P(SkinningTest, WeightsAreThoseOfTheEquation) {
 
 TEST_P(SkinningForEveryK, FlannFindsTheSameNodes) {
   const auto points = random_points(500, 7), nodes = random_points(333, 8);
-  auto node_values = flat(nodes), point_values = flat(points);
+  auto node_values = flatten(nodes).host(), point_values = flatten(points).host();
   flann::KDTreeSingleIndex<flann::L2_Simple<float>> index(
       flann::Matrix<float>(node_values.data(), nodes.size(), 3));
   index.buildIndex();
@@ -230,7 +225,7 @@ TEST(FindEdges, OneNodePerPointGivesNoEdge) {
 
 TEST(FindEdges, AreThePairsOfAllPoints) {
   const auto points = random_points(200, 11), nodes = random_points(30, 12);
-  const auto influences = compute_influences_reference(flat(points), nodes, 4);
+  const auto influences = compute_influences_reference(flatten(points).host(), nodes, 4);
   std::set<std::pair<int, int>> expected;
   const auto& found = influences.nodes.host();
   for (std::size_t a = 0; a < found.size(); ++a)

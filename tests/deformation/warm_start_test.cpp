@@ -6,18 +6,13 @@
 #include <random>
 
 #include "framework/deformation/warp.h"
+#include "framework/geometry/point_set.h"
 
 namespace pliant {
 namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
 using Affine = Eigen::Matrix<float, 3, 4>;
-
-std::vector<float> flat(const Points& points) {
-  std::vector<float> values;
-  for (const auto& point : points) values.insert(values.end(), point.data(), point.data() + 3);
-  return values;
-}
 
 Points pick(const Points& points, const std::vector<int>& indices) {
   Points picked;
@@ -36,7 +31,7 @@ class WarmStartTest : public testing::Test {
     for (int point = 3; point < static_cast<int>(points_.size()); point += 25) nodes_.push_back(point);
     graph_.nodes = nodes_;
     graph_.positions = pick(points_, nodes_);
-    graph_.influences = compute_influences_reference(flat(points_), graph_.positions, 4);
+    graph_.influences = compute_influences_reference(flatten(points_).host(), graph_.positions, 4);
     std::mt19937 generator(5);
     std::normal_distribution<float> normal;
     std::vector<float> forms(affine_size * nodes_.size());
@@ -59,14 +54,14 @@ class WarmStartTest : public testing::Test {
 
   /// Where [Eq. 4.1] moves a place near a point, with that point's influences.
   Eigen::Vector3f moved(int point, const Eigen::Vector3f& place) const {
-    const PointSet rest{Array<float>(flat({place})), Array<float>(std::vector<float>(3, 0.0F))};
+    const PointSet rest{flatten(Points{place}), Array<float>(std::vector<float>(3, 0.0F))};
     const auto first = 4 * static_cast<std::ptrdiff_t>(point);
     const auto& ids = graph_.influences.nodes.host();
     const auto& weights = graph_.influences.weights.host();
     const Influences own{
         4, Array<int>(std::vector<int>(ids.begin() + first, ids.begin() + first + 4)),
         Array<float>(std::vector<float>(weights.begin() + first, weights.begin() + first + 4))};
-    const PointSet result = warp_reference(rest, own, Array<float>(flat(pick(points_, nodes_))), affine_);
+    const PointSet result = warp_reference(rest, own, flatten(pick(points_, nodes_)), affine_);
     return Eigen::Map<const Eigen::Vector3f>(result.points.host().data());
   }
 

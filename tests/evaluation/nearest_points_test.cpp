@@ -16,7 +16,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3f>;
 using Map = Image<Eigen::Vector3f>;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nowhere = std::numeric_limits<float>::infinity();
 
 Camera camera_of(int width, int height) {
   return {0.8 * width, 0.8 * width, (width - 1) / 2.0, (height - 1) / 2.0, width, height};
@@ -48,7 +48,7 @@ Points points_of(const Map& map) {
 std::vector<float> by_brute_force(const Map& map, const Points& queries) {
   std::vector<float> found;
   for (const auto& query : queries) {
-    float least = infinity;
+    float least = nowhere;
     for (const auto& point : map.pixels()) {
       const Eigen::Vector3f away = point - query;
       if (point.z() > 0)
@@ -121,19 +121,19 @@ TEST(NearestPoints, QueriesThatAreNotFiniteHaveNoDistanceAndDisturbNoOther) {
   const Map map = surface(64, 48, 0);
   Points queries = points_of(surface(64, 48, 5));
   const std::vector<float> expected = by_tree(map, queries);
-  for (std::size_t i = 0; i < queries.size(); i += 3) queries[i].y() = i % 2 == 0 ? infinity : std::nanf("");
+  for (std::size_t i = 0; i < queries.size(); i += 3) queries[i].y() = i % 2 == 0 ? nowhere : std::nanf("");
   const std::vector<float> found = by_tree(map, queries);
   for (std::size_t i = 0; i < queries.size(); ++i)
     if (i % 3 == 0)
       EXPECT_TRUE(std::isnan(found[i]));
     else
       EXPECT_EQ(found[i], expected[i]);
-  EXPECT_TRUE(std::isnan(by_tree(map, {{infinity, 0, 0}})[0]));
+  EXPECT_TRUE(std::isnan(by_tree(map, {{nowhere, 0, 0}})[0]));
 }
 
 TEST(NearestPoints, PointsThatAreNotFiniteAreNotFound) {
   Map map(4, 4, Eigen::Vector3f(std::nanf(""), 0, 700));
-  map(0, 0) = {0, 0, infinity};
+  map(0, 0) = {0, 0, nowhere};
   map(1, 0) = {0, 0, -5};
   EXPECT_TRUE(NearestPoints(map, camera_of(4, 4)).empty());
   map(3, 3) = {0, 0, 700};

@@ -1,4 +1,5 @@
 #include "framework/evaluation/trajectory_error.h"
+#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,6 @@
 
 namespace pliant {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 Eigen::Isometry3d pose_of(const Eigen::Vector3d& place, double degrees, const Eigen::Vector3d& axis) {
   return Eigen::Translation3d(place) * Eigen::AngleAxisd(degrees * degree, axis.normalized());

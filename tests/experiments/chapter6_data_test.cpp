@@ -10,7 +10,7 @@
 #include "framework/config/config.h"
 #include "tests/datasets/data_of.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,4 +91,4 @@ TEST_F(Chapter6Data, AHeadLeavesAndReturns) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

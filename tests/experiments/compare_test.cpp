@@ -3,7 +3,7 @@
 #include "experiments/runner/runner.h"
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -79,4 +79,4 @@ TEST_F(CompareTest, TablesListTheSolversOfEachRun) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

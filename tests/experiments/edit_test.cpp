@@ -11,7 +11,7 @@
 #include "framework/core/error.h"
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -233,4 +233,4 @@ TEST_F(EditTest, TheOneThatComesWithTheProjectBendsDeeply) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

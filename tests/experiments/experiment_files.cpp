@@ -2,7 +2,7 @@
 
 #include "experiments/runner/components.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 ExperimentFiles::ExperimentFiles() { register_everything(registry_); }
 
@@ -21,4 +21,4 @@ std::string ExperimentFiles::text_of(const std::string& name) const {
   return {bytes.begin(), bytes.end()};
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

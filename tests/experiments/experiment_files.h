@@ -7,7 +7,7 @@
 #include "experiments/tasks/workbench.h"
 #include "tests/io/test_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// Experiments written by tests, over the methods that come with the project.
 class ExperimentFiles : public TestFiles {
@@ -24,4 +24,4 @@ class ExperimentFiles : public TestFiles {
   Workbench workbench_{registry_};
 };
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

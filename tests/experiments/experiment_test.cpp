@@ -4,7 +4,7 @@
 
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::AllOf;
@@ -143,4 +143,4 @@ TEST_F(ExperimentTest, ExperimentsThatComeWithTheProjectAreGood) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

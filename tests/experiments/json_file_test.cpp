@@ -7,7 +7,7 @@
 #include "framework/core/error.h"
 #include "tests/io/test_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using nlohmann::ordered_json;
@@ -83,4 +83,4 @@ TEST_F(JsonFileTest, LinesThatCannotBeWrittenAreADataErrorWithTheFile) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

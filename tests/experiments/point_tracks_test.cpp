@@ -7,7 +7,7 @@
 #include "framework/io/surface_mesh.h"
 #include "tests/io/test_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -122,4 +122,4 @@ TEST_F(PointTracksTest, OneFrameIsAMeshThatStandsAndNoneIsNoFile) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -11,7 +11,7 @@
 #include "experiments/tasks/thinned_surface.h"
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 /// A plane of width x height pixels with a hole at (4, 4).
@@ -172,4 +172,4 @@ TEST_F(RegistrationViewTest, IsWrittenWhereAReportAsksForIt) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -7,7 +7,7 @@
 
 #include "tests/io/test_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +189,4 @@ TEST_F(ResultFolderTest, TheFolderItselfStays) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -11,7 +11,7 @@
 #include "experiments/runner/runner.h"
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -266,4 +266,4 @@ TEST_F(UnfinishedTest, ASingleRunLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -8,7 +8,7 @@
 #include "framework/tracking/register_pair.h"
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -291,4 +291,4 @@ TEST_F(RunnerTest, IcpDoesNotSlideASheetAwayFromItsFeatures) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

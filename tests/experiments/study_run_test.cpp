@@ -7,7 +7,7 @@
 #include "experiments/runner/runner.h"
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ TEST_F(StudyRunTest, AStudyIsCheckedBeforeAnythingIsRun) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -13,7 +13,7 @@
 #include "experiments/tasks/json_file.h"
 #include "tests/io/test_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -99,4 +99,4 @@ TEST_F(TrackLogTest, IsReadAsNumbersOfFramesThatWereTracked) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

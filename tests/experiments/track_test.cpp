@@ -15,7 +15,7 @@
 #include "framework/io/trajectory_file.h"
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -309,4 +309,4 @@ TEST_F(TrackTest, ChecksTheFirstFrame) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

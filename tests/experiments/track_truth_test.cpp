@@ -8,7 +8,7 @@
 #include "experiments/tasks/point_truth.h"
 #include "tests/datasets/data_of.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 /// A head that opens its mouth while it moves before a still camera; 7 frames, at rest at both ends.
@@ -127,4 +127,4 @@ TEST_F(TrackTruthTest, ThereIsAPointForEachPixel) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -1,8 +1,8 @@
 #include "framework/geometry/animation.h"
+#include "framework/core/angle.h"
 
 #include <gmock/gmock.h>
 
-#include <numbers>
 #include <stdexcept>
 
 namespace pliant {
@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 using Interpolation = Track::Interpolation;
 
 Eigen::Quaterniond about_z(double degrees) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitZ()));
+  return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * degree, Eigen::Vector3d::UnitZ()));
 }
 
 TEST(Track, HoldsBeforeItsFirstKeyAndAfterItsLast) {

@@ -14,8 +14,8 @@
 namespace pliant {
 namespace {
 
-using testing::MeshShape;
-using testing::shape_of;
+using test::MeshShape;
+using test::shape_of;
 
 /// Samples of a function, with what they are a view of.
 struct SampledGrid {

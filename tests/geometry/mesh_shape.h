@@ -11,7 +11,7 @@
 
 #include "framework/geometry/mesh.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// What counting tells of a list of triangles.
 struct MeshShape {
@@ -55,4 +55,4 @@ inline MeshShape shape_of(const Mesh& mesh) {
   return shape;
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -1,4 +1,5 @@
 #include "framework/geometry/surface.h"
+#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace pliant {
@@ -28,7 +28,7 @@ Frame render(const std::function<double(double, double)>& depth_of) {
 
 double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d exact = a.cast<double>();
-  return std::atan2(exact.cross(b).norm(), exact.dot(b)) * 180 / std::numbers::pi;
+  return std::atan2(exact.cross(b).norm(), exact.dot(b)) / degree;
 }
 
 /// A plane through (0, 0, 800) with the given normal.

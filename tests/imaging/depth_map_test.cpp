@@ -1,4 +1,5 @@
 #include "framework/imaging/depth_map.h"
+#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ namespace {
 const Camera kCamera{300, 290, 84.5, 40, 165, 83};
 
 double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / degree;
 }
 
 struct Difference {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "experiments/datasets/depth_sensor.h"
+#include "framework/core/angle.h"
 #include "framework/imaging/bilateral.h"
 #include "framework/imaging/cross_product.h"
 #include "framework/imaging/integral_images.h"
@@ -47,7 +47,7 @@ class SensedBall : public testing::Test {
       }
     }
     EXPECT_GT(count, 15000);
-    return sum / count * 180 / std::numbers::pi;
+    return sum / count / degree;
   }
 
  private:

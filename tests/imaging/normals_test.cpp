@@ -1,10 +1,10 @@
 #include "framework/imaging/normals.h"
+#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "framework/imaging/cross_product.h"
@@ -22,7 +22,7 @@ const Camera kCamera{300, 290, 84.5, 40, 165, 83};
 using NormalImage = Image<Eigen::Vector3f>;
 
 double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / degree;
 }
 
 Frame curved(double noise = 0) {

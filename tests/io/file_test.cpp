@@ -10,11 +10,11 @@
 namespace pliant {
 namespace {
 
+using test::data_error_of;
 using ::testing::AllOf;
-using testing::data_error_of;
 using ::testing::HasSubstr;
 
-class File : public testing::TestFiles {};
+class File : public test::TestFiles {};
 
 TEST_F(File, ReadsWhatWasWritten) {
   const std::vector<std::uint8_t> bytes = {0, '\n', '\r', 0xff, 26};

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// A binary glTF file in the making. Data goes in as views and accessors; `json` may be changed at will.
 struct GlbFile {
@@ -95,4 +95,4 @@ inline GlbFile square_glb() {
   return glb;
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -10,10 +10,10 @@ namespace pliant {
 namespace {
 
 using nlohmann::json;
-using testing::data_error_of;
-using testing::GlbFile;
+using test::data_error_of;
+using test::GlbFile;
+using test::square_glb;
 using ::testing::HasSubstr;
-using testing::square_glb;
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
   constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -28,7 +28,7 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 }
 
 /// The square as a .gltf whose buffer is a file beside it or within.
-class GltfBuffers : public testing::TestFiles {
+class GltfBuffers : public test::TestFiles {
  protected:
   GltfBuffers() : square_(square_glb()) { write("square.bin", square_.binary); }
 

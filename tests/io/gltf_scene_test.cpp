@@ -16,14 +16,14 @@ namespace pliant {
 namespace {
 
 using nlohmann::json;
-using testing::data_error_of;
+using test::data_error_of;
+using test::GlbFile;
+using test::RiggedGlb;
 using ::testing::ElementsAre;
-using testing::GlbFile;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::RiggedGlb;
 
-class GltfSceneFile : public testing::TestFiles {
+class GltfSceneFile : public test::TestFiles {
  protected:
   GltfScene read(const GlbFile& glb, bool chain_joints = false) const {
     return read_gltf_scene(write("scene.glb", glb.bytes()), {1000, chain_joints});
@@ -197,7 +197,7 @@ TEST_F(GltfSceneFile, AnAnimationMayShiftScaleAndMorph) {
 }
 
 TEST_F(GltfSceneFile, AnAnimatedNodeWithoutSkinIsAJoint) {
-  GlbFile glb = testing::square_glb();
+  GlbFile glb = test::square_glb();
   glb.json["nodes"][0]["rotation"] = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};
   glb.json["nodes"][0]["scale"] = {2, 2, 2};
   const auto still = read_gltf(write("still.glb", glb.bytes()));
@@ -404,7 +404,7 @@ TEST_F(GltfSceneFile, KeysNamedTooOftenAreRefusedBeforeTheyFillTheMemory) {
 }
 
 /// Reads the file if it can be read; anything but a mesh that can be posed or a DataError is a failure.
-void read_or_refuse(const std::string& path) {
+void read_scene_or_refuse(const std::string& path) {
   try {
     for (const bool chain_joints : {false, true}) {
       const GltfScene scene = read_gltf_scene(path, {1000, chain_joints});
@@ -428,7 +428,7 @@ TEST_F(GltfSceneFile, DamagedBytesNeverDoHarm) {
     for (std::size_t i = 0; i < changes; ++i)
       bytes[generator() % bytes.size()] = static_cast<std::uint8_t>(generator());
     std::filesystem::remove(file("damaged.glb"));
-    ASSERT_NO_FATAL_FAILURE(read_or_refuse(write("damaged.glb", bytes))) << "trial " << trial;
+    ASSERT_NO_FATAL_FAILURE(read_scene_or_refuse(write("damaged.glb", bytes))) << "trial " << trial;
   }
 }
 
@@ -456,19 +456,19 @@ TEST_F(GltfSceneFile, StrangeValuesInSkinsNodesAndAnimationsNeverDoHarm) {
         GlbFile damaged = whole;
         damaged.json[place] = replacement;
         std::filesystem::remove(file("damaged.glb"));
-        ASSERT_NO_FATAL_FAILURE(read_or_refuse(write("damaged.glb", damaged.bytes())))
+        ASSERT_NO_FATAL_FAILURE(read_scene_or_refuse(write("damaged.glb", damaged.bytes())))
             << place << " = " << replacement;
       }
     }
   }
 }
 
-class GltfColors : public testing::TestFiles {
+class GltfColors : public test::TestFiles {
  protected:
   std::vector<Rgb> read(const GlbFile& glb) const {
     return read_gltf_scene(write("colors.glb", glb.bytes()), {1000, false, true}).colors;
   }
-  GlbFile glb_ = testing::square_glb();
+  GlbFile glb_ = test::square_glb();
   json& primitive() { return glb_.json["meshes"][0]["primitives"][0]; }
 };
 

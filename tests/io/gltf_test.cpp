@@ -16,13 +16,13 @@ namespace pliant {
 namespace {
 
 using nlohmann::json;
-using testing::data_error_of;
+using test::data_error_of;
+using test::GlbFile;
+using test::square_glb;
 using ::testing::ElementsAre;
-using testing::GlbFile;
 using ::testing::HasSubstr;
-using testing::square_glb;
 
-class Gltf : public testing::TestFiles {
+class Gltf : public test::TestFiles {
  protected:
   Mesh read(const std::vector<std::uint8_t>& bytes) const { return read_gltf(write("mesh.glb", bytes)); }
   Mesh read(const GlbFile& glb) const { return read(glb.bytes()); }
@@ -63,7 +63,7 @@ void check_sound(const Mesh& mesh) {
 }
 
 /// Reads the file if it can be read; anything but a sound mesh or a DataError is a failure.
-void read_or_refuse(const std::string& path) {
+void read_mesh_or_refuse(const std::string& path) {
   try {
     check_sound(read_gltf(path));
   } catch (const DataError& error) {
@@ -379,7 +379,7 @@ TEST_F(Gltf, DamagedBytesNeverDoHarm) {
     for (std::size_t i = 0; i < changes; ++i) {
       bytes[generator() % bytes.size()] = static_cast<std::uint8_t>(generator());
     }
-    ASSERT_NO_FATAL_FAILURE(read_or_refuse(write_damaged(bytes))) << "trial " << trial;
+    ASSERT_NO_FATAL_FAILURE(read_mesh_or_refuse(write_damaged(bytes))) << "trial " << trial;
   }
 }
 
@@ -408,7 +408,7 @@ TEST_F(Gltf, StrangeValuesAnywhereInItsJsonNeverDoHarm) {
       for (const json& replacement : strange) {
         GlbFile damaged = whole;
         damaged.json[place] = replacement;
-        ASSERT_NO_FATAL_FAILURE(read_or_refuse(write_damaged(damaged.bytes())))
+        ASSERT_NO_FATAL_FAILURE(read_mesh_or_refuse(write_damaged(damaged.bytes())))
             << place << " = " << replacement;
       }
     }
@@ -445,7 +445,7 @@ TEST_F(Gltf, DataNamedTooOftenIsRefusedBeforeItFillsTheMemory) {
 }
 
 TEST_F(Gltf, TheRealHead) {
-  const std::string path = testing::real_data("ict_face/ict_face.glb");
+  const std::string path = test::real_data("ict_face/ict_face.glb");
   if (path.empty()) GTEST_SKIP() << "ict_face/ict_face.glb is not below PLIANT_DATA";
   const Mesh mesh = read_gltf(path);
   check_sound(mesh);

@@ -11,12 +11,12 @@
 namespace pliant {
 namespace {
 
+using test::data_error_of;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
-using testing::data_error_of;
 using ::testing::HasSubstr;
 
-class Images : public testing::TestFiles {
+class Images : public test::TestFiles {
  protected:
   /// A PNG that OpenCV wrote, so that our reader is not tested against our writer alone.
   std::string write_png(const std::string& name, const cv::Mat& image) const {

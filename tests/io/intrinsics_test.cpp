@@ -7,13 +7,13 @@
 namespace pliant {
 namespace {
 
+using test::data_error_of;
 using ::testing::AllOf;
-using testing::data_error_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-class IntrinsicsTest : public testing::TestFiles {
+class IntrinsicsTest : public test::TestFiles {
  protected:
   std::string error_of(const std::string& text, int width = 640, int height = 480) const {
     const auto path = write("k.txt", text);

@@ -8,7 +8,7 @@
 #include "framework/io/surface_mesh.h"
 #include "tests/io/test_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using MeshWriterTest = TestFiles;
@@ -64,4 +64,4 @@ TEST_F(MeshWriterTest, AnEmptyModelIsAFileWithoutMesh) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

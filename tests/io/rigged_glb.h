@@ -2,7 +2,7 @@
 
 #include "tests/io/glb_file.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// A strip of 100 x 200 mm in the plane z = 0: rows of two vertices at y = 0, 100 and 200 mm, in the frame of
 /// its mesh, with the morph target "bulge" (the last row by 20 mm along z). Nodes: 0 "strip", the mesh, whose
@@ -59,4 +59,4 @@ struct RiggedGlb : GlbFile {
   nlohmann::json& primitive() { return json["meshes"][0]["primitives"][0]; }
 };
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -11,8 +11,8 @@
 namespace pliant {
 namespace {
 
+using test::data_error_of;
 using ::testing::AllOf;
-using testing::data_error_of;
 using ::testing::HasSubstr;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -28,7 +28,7 @@ std::vector<std::uint8_t> flow_file(std::uint32_t width, std::uint32_t height, s
   return bytes;
 }
 
-class SceneFlow : public testing::TestFiles {
+class SceneFlow : public test::TestFiles {
  protected:
   std::string error_of(const std::vector<std::uint8_t>& bytes) const {
     const auto path = write("truth.sflow", bytes);

@@ -14,12 +14,12 @@
 namespace pliant {
 namespace {
 
-using testing::data_error_of;
+using test::data_error_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-class SurfaceFile : public testing::TestFiles {
+class SurfaceFile : public test::TestFiles {
  protected:
   SurfaceMesh read(const std::string& name, const std::string& text, double unit = 1) const {
     return read_surface_mesh(write(name, text), unit);

@@ -12,7 +12,7 @@
 #include "framework/core/error.h"
 #include "framework/io/file.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// A folder of its own for every test, removed at its end.
 class TestFiles : public ::testing::Test {
@@ -73,4 +73,4 @@ std::string data_error_of(Action action) {
   return "";
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

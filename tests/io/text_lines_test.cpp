@@ -7,11 +7,11 @@
 namespace pliant {
 namespace {
 
-using testing::data_error_of;
+using test::data_error_of;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-class TextLinesFile : public testing::TestFiles {};
+class TextLinesFile : public test::TestFiles {};
 
 TEST_F(TextLinesFile, AreSplitIntoWordsWhateverEndsThem) {
   TextLines lines(write("a.txt", std::string("\xEF\xBB\xBF"

@@ -7,9 +7,9 @@
 namespace pliant {
 namespace {
 
-using testing::data_error_of;
+using test::data_error_of;
 
-class TrajectoryFile : public testing::TestFiles {};
+class TrajectoryFile : public test::TestFiles {};
 
 TEST_F(TrajectoryFile, ReadsWhatWasWritten) {
   Trajectory written;

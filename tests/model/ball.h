@@ -7,7 +7,7 @@
 #include "framework/geometry/camera.h"
 #include "framework/geometry/frame.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// A ball before a wall, mm in the model's frame: what a camera sees of them is known exactly.
 struct Ball {
@@ -43,4 +43,4 @@ struct Ball {
   }
 };
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

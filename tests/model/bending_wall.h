@@ -6,7 +6,7 @@
 #include "framework/geometry/camera.h"
 #include "framework/geometry/frame.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// A wall that bends along x towards the camera at both sides, mm in the model's frame: what is at (x, y, z)
 /// goes to (x, y, z - bend(x)).
@@ -44,4 +44,4 @@ struct BendingWall {
   double error(const Eigen::Vector3d& p) const { return std::abs(p.z() - (rest - bend(p.x()))); }
 };
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

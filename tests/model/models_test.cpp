@@ -11,7 +11,7 @@
 namespace pliant {
 namespace {
 
-using testing::Ball;
+using test::Ball;
 
 const Camera kCamera{100, 100, 40, 30, 80, 60};
 

@@ -14,7 +14,7 @@
 namespace pliant {
 namespace {
 
-using testing::Ball;
+using test::Ball;
 using Points = std::vector<Eigen::Vector3f>;
 
 // --- drawing ---

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "framework/core/angle.h"
 #include "framework/model/tsdf.h"
 #include "tests/geometry/mesh_shape.h"
 #include "tests/model/ball.h"
@@ -11,7 +12,7 @@
 namespace pliant {
 namespace {
 
-using testing::Ball;
+using test::Ball;
 
 const Camera kCamera{260, 260, 79.5, 59.5, 160, 120};
 const Ball kBall;
@@ -42,7 +43,7 @@ TEST(TsdfAccuracy, TheMeshIsTheSurfaceThatWasSeen) {
   }
   EXPECT_LT(sum / static_cast<double>(mesh.vertices.size()), 0.15 * kGrid.voxel);
   EXPECT_LT(worst, kGrid.voxel);
-  const testing::MeshShape shape = testing::shape_of(mesh);
+  const test::MeshShape shape = test::shape_of(mesh);
   EXPECT_EQ(shape.open_edges, 0);
   EXPECT_EQ(shape.euler, 2) << "one closed surface: nothing else floats in the volume";
   const double volume = 4 * EIGEN_PI / 3 * std::pow(kBall.radius, 3);
@@ -69,7 +70,7 @@ TEST(TsdfAccuracy, WhatIsSeenIsWhatWasSeen) {
         const Eigen::Vector3d normal = (pose.inverse() * point - kBall.centre).normalized();
         const Eigen::Vector3d found =
             pose.linear().transpose() * finite_or_none(map, map.normals(), {u, v}).cast<double>();
-        angles.push_back(std::acos(std::min(normal.dot(found), 1.0)) * 180 / EIGEN_PI);
+        angles.push_back(std::acos(std::min(normal.dot(found), 1.0)) / degree);
       }
     }
     ASSERT_GT(errors.size(), 0.97 * seen);

@@ -1,4 +1,5 @@
 #include "framework/model/tsdf_reference.h"
+#include "framework/core/angle.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 namespace pliant {
 namespace {
 
-using testing::Ball;
+using test::Ball;
 
 /// Width and height are no multiples of a vector.
 const Camera kCamera{100, 96, 42.5, 30, 87, 61};
@@ -150,7 +151,7 @@ struct Comparison {
 };
 
 double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / EIGEN_PI;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / degree;
 }
 
 Comparison compare(const SurfaceMap& map, const SurfaceImage& expected) {

@@ -13,7 +13,7 @@
 namespace pliant {
 namespace {
 
-using testing::Ball;
+using test::Ball;
 
 const Camera kCamera{100, 96, 42.5, 30, 87, 61};
 const Ball kBall{.wall = 720};

@@ -16,8 +16,8 @@
 namespace pliant {
 namespace {
 
-using testing::Ball;
-using testing::BendingWall;
+using test::Ball;
+using test::BendingWall;
 using Points = std::vector<Eigen::Vector3f>;
 using Form = Eigen::Matrix<float, 3, 4>;
 

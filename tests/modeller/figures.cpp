@@ -5,7 +5,7 @@
 
 #include "experiments/modeller/pose.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 const FigureKind& kind_of(const std::string& name) {
   const auto& kinds = figure_kinds();
@@ -48,4 +48,4 @@ std::size_t vertex_near(const Figure& figure, const Eigen::Vector3d& point) {
                                   vertices.begin());
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -7,7 +7,7 @@
 
 #include "experiments/modeller/figure.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// The kind of that name.
 const FigureKind& kind_of(const std::string& name);
@@ -24,4 +24,4 @@ std::vector<Eigen::Vector3d> posed(const Mesh& mesh, const NamedPose& pose, doub
 /// The vertex nearest to a point (mm) at rest.
 std::size_t vertex_near(const Figure& figure, const Eigen::Vector3d& point);
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -15,11 +15,11 @@
 namespace pliant {
 namespace {
 
-using testing::count_intersections;
-using testing::made;
-using testing::posed;
-using testing::shape_of;
-using testing::vertex_near;
+using test::count_intersections;
+using test::made;
+using test::posed;
+using test::shape_of;
+using test::vertex_near;
 
 TEST(CountIntersections, FindsTrianglesThatPassThroughEachOther) {
   Mesh mesh;
@@ -110,7 +110,7 @@ TEST_P(EachFigure, EveryIdentityIsASurface) {
   std::map<std::string, double> lowest;
   std::map<std::string, double> highest;
   const Mesh usual = made(GetParam()).mesh;
-  for (const Parameter& row : testing::kind_of(GetParam()).identity.rows()) {
+  for (const Parameter& row : test::kind_of(GetParam()).identity.rows()) {
     lowest[row.name()] = row.lowest().value();
     highest[row.name()] = row.highest().value();
     const Mesh other = made(GetParam(), {{row.name(), row.highest().value()}}).mesh;

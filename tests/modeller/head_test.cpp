@@ -9,9 +9,9 @@
 namespace pliant {
 namespace {
 
-using testing::made;
-using testing::posed;
-using testing::vertex_near;
+using test::made;
+using test::posed;
+using test::vertex_near;
 
 class Head : public ::testing::Test {
  protected:

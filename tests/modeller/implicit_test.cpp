@@ -93,7 +93,7 @@ TEST(Polygonise, VerticesLieOnTheSurfaceAndAreFinerInFocus) {
   const Mesh even = polygonise(solid, {3});
   const Mesh focused = polygonise(solid, {3, {-50, 0, 0}, 60, {{{-50, 0, 0}, 15, 0.4}}});
   for (const Mesh& mesh : {even, focused}) {
-    const auto shape = testing::shape_of(mesh);
+    const auto shape = test::shape_of(mesh);
     EXPECT_EQ(shape.open_edges, 0);
     EXPECT_EQ(shape.repeated_edges, 0);
     EXPECT_EQ(shape.euler, 2);

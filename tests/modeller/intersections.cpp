@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using Cell = std::tuple<int, int, int>;
@@ -97,4 +97,4 @@ class IntersectionTest {
 
 std::size_t count_intersections(const Mesh& mesh) { return IntersectionTest(mesh).count(); }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

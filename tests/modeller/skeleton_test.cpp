@@ -42,16 +42,16 @@ TEST(Skeleton, WeightsGoSmoothlyFromJointToJoint) {
 TEST(Skeleton, ATurnAboutXBendsToTheFront) {
   const Mesh mesh = hinged_stick();
   const NamedPose bent{"bent", "", {}, {{"upper", {90, 0, 0}}}};
-  const auto points = testing::posed(mesh, bent);
+  const auto points = test::posed(mesh, bent);
   EXPECT_LT((points.back() - Point(5, 50, 50)).norm(), 1e-4);
   EXPECT_LT((points.front() - Point(5, 0, 0)).norm(), 1e-4);
-  const auto half = testing::posed(mesh, bent, 0.5);
+  const auto half = test::posed(mesh, bent, 0.5);
   EXPECT_NEAR(half.back().z(), 50 * std::sqrt(0.5), 1e-4);
 }
 
 TEST(Skeleton, TurnsAreAboutXThenYThenZ) {
   const Mesh mesh = hinged_stick();
-  const auto points = testing::posed(mesh, {"odd", "", {}, {{"upper", {90, 90, 0}}}});
+  const auto points = test::posed(mesh, {"odd", "", {}, {{"upper", {90, 90, 0}}}});
   // The tip goes from y to z by the first turn and from z to x by the second; what lies at x goes to -z.
   EXPECT_LT((points.back() - Point(50, 50, -5)).norm(), 1e-4);
 }

@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-class OpenNiCamera : public testing::ScriptedFiles {
+class OpenNiCamera : public test::ScriptedFiles {
  protected:
   ~OpenNiCamera() override { ::unsetenv("PLIANT_SCRIPTED_CAMERA"); }
 
@@ -66,9 +66,9 @@ TEST_F(OpenNiCamera, AColourCameraOfItsOwnIsDescribed) {
   EXPECT_EQ(stream->rig().color->fx, 45);
   EXPECT_EQ(stream->rig().color_from_depth.translation().x(), -25);
   EXPECT_THAT(stream->warnings(), IsEmpty());
-  EXPECT_THAT(testing::config_error_of("{type: openni, color: false, " + place + "}"),
+  EXPECT_THAT(test::config_error_of("{type: openni, color: false, " + place + "}"),
               HasSubstr("colour is not wanted"));
-  EXPECT_THAT(testing::config_error_of("{type: openni, registered: true, " + place + "}"),
+  EXPECT_THAT(test::config_error_of("{type: openni, registered: true, " + place + "}"),
               HasSubstr("colour is 'registered'"));
 }
 
@@ -198,9 +198,9 @@ TEST_F(OpenNiCamera, ThatIsNotThereIsAnErrorThatSaysWhatToDo) {
   EXPECT_EQ(open("device: scripted")->rig().depth.width, width);
   plug_in(both_sensors().substr(both_sensors().find("view color")));
   EXPECT_THAT(error_of(""), HasSubstr("it has no depth sensor"));
-  EXPECT_THAT(testing::config_error_of("{type: openni, device: a, recording: '" +
-                                       write("b.oni", std::string()) + "'}"),
-              HasSubstr("both a 'recording' and a 'device'"));
+  EXPECT_THAT(
+      test::config_error_of("{type: openni, device: a, recording: '" + write("b.oni", std::string()) + "'}"),
+      HasSubstr("both a 'recording' and a 'device'"));
 }
 
 TEST_F(OpenNiCamera, WithoutADriverTheProgramSaysWhatToInstall) {
@@ -219,9 +219,9 @@ TEST_F(OpenNiCamera, UnpluggedWhileItIsRecordedKeepsWhatCame) {
   EXPECT_EQ(run.exit_code, 3) << run.err;
   EXPECT_THAT(run.err, HasSubstr("the camera was unplugged"));
   EXPECT_THAT(run.out, HasSubstr("3 frames of Scripted camera"));
-  const auto frames = frames_of(*testing::data_of("{type: tum, folder: '" + file("mine") +
-                                                  "', intrinsics: '" + file("mine/intrinsics.txt") + "'}")
-                                     ->open(testing::shared_device(), 0));
+  const auto frames = frames_of(*test::data_of("{type: tum, folder: '" + file("mine") + "', intrinsics: '" +
+                                               file("mine/intrinsics.txt") + "'}")
+                                     ->open(test::shared_device(), 0));
   ASSERT_EQ(frames.size(), 3U);
   EXPECT_EQ(frames[2].depth.pixels(), depth(3).pixels());
   EXPECT_EQ(frames[2].color.pixels(), color(3).pixels());

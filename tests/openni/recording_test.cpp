@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 
 constexpr int count = 12;  // images that the camera plays
 
-class OpenNiRecording : public testing::ScriptedFiles {
+class OpenNiRecording : public test::ScriptedFiles {
  protected:
   /// Of a camera with these lines before its images.
   std::string recorded(const std::string& sensors) const {

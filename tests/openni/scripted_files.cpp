@@ -11,7 +11,7 @@
 
 #include "tests/datasets/data_of.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::string ScriptedFiles::error_of(const std::string& entries) {
   return data_error_of([&] { frames_of(*open(entries)); });
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -6,7 +6,7 @@
 #include "experiments/datasets/frame_source.h"
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// A scripted camera (scripted_camera.cpp) of small images. Image i of either sensor differs from all others
 /// in every pixel that is not a hole.
@@ -42,4 +42,4 @@ class ScriptedFiles : public ProgramTest {
   static std::string error_of(const std::string& entries);
 };
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

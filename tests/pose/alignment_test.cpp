@@ -94,7 +94,7 @@ TEST(RigidRansac, SameSeedSameBits) {
 
 // --- a plane with a random pattern, seen before and after a rigid motion ---
 
-const Camera camera{300, 300, 159.5, 119.5, 320, 240};
+const Camera pattern_camera{300, 300, 159.5, 119.5, 320, 240};
 
 double lattice_value(std::int64_t x, std::int64_t y, std::uint64_t pattern) {
   const std::uint64_t seed =
@@ -125,7 +125,7 @@ Frame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
   Frame frame{DepthImage(320, 240), ColorImage(320, 240), {}};
   for (int v = 0; v < 240; ++v) {
     for (int u = 0; u < 320; ++u) {
-      const Eigen::Vector3d ray = camera.unproject(u, v, 1);
+      const Eigen::Vector3d ray = pattern_camera.unproject(u, v, 1);
       const double depth = origin.dot(normal) / ray.dot(normal);
       const Eigen::Vector3d at = motion.inverse() * (depth * ray);
       const double value =
@@ -139,7 +139,7 @@ Frame render_plane(const Eigen::Isometry3d& motion, std::uint64_t pattern) {
 }
 
 FramePair moved_plane() {
-  static const FramePair pair{"plane", camera, render_plane(Eigen::Isometry3d::Identity(), 11),
+  static const FramePair pair{"plane", pattern_camera, render_plane(Eigen::Isometry3d::Identity(), 11),
                               render_plane(a_motion(), 11)};
   return pair;
 }
@@ -263,7 +263,7 @@ TEST(FeatureAlignment, UsesOnlyTheMaskAndPixelsWithDepth) {
   }
   const PointMatches matches = match_features(pair, 0.85);
   EXPECT_GT(matches.size(), 10u);
-  for (const Eigen::Vector3d& point : matches.from) EXPECT_GT(camera.project(point).x(), 198);
+  for (const Eigen::Vector3d& point : matches.from) EXPECT_GT(pattern_camera.project(point).x(), 198);
 }
 
 TEST(FeatureAlignment, NeedsColor) {

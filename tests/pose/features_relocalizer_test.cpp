@@ -13,7 +13,6 @@
 namespace pliant {
 namespace {
 
-using test::degree;
 using test::difference;
 using test::motion_of;
 using ::testing::HasSubstr;

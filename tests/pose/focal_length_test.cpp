@@ -18,8 +18,7 @@ namespace {
 using test::camera;
 using test::motion_of;
 using test::seen;
-
-const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
+using test::still;
 
 /// What a camera of a wrong focal length takes frames of the right one for.
 Camera scaled(double factor) {

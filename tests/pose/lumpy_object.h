@@ -3,15 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "framework/core/angle.h"
 #include "framework/geometry/camera.h"
 #include "framework/geometry/frame.h"
 
 // A lumpy ellipsoid, seen by a camera before and after a rigid motion.
 namespace pliant::test {
 
-inline constexpr double degree = std::numbers::pi / 180;
 inline const Camera camera{260, 260, 79.5, 59.5, 160, 120};
 /// A function, because constants of the tests are made from it: a variable might be made after them.
 inline Eigen::Vector3d middle() { return {0, 0, 600}; }
@@ -41,6 +40,17 @@ inline Frame seen(const Eigen::Isometry3d& motion, const Camera& by = camera) {
   }
   return frame;
 }
+
+/// A plane in the columns from .. to - 1, with a margin above and below, whose depth (mm) grows to the right.
+inline Frame plane(double depth, int from, int to, double slope = 0) {
+  Frame frame{DepthImage(camera.width, camera.height), {}, {}};
+  for (int v = 20; v < 100; ++v)
+    for (int u = from; u < to; ++u)
+      frame.depth(u, v) = static_cast<float>(depth / (1 - slope * (u - camera.cx) / camera.fx));
+  return frame;
+}
+
+inline const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
 
 inline Eigen::Isometry3d motion_of(double x, double y, double z, const Eigen::Vector3d& shift) {
   return Eigen::Translation3d(middle() + shift) * Eigen::AngleAxisd(x * degree, Eigen::Vector3d::UnitX()) *

@@ -15,13 +15,12 @@ namespace pliant {
 namespace {
 
 using test::camera;
-using test::degree;
 using test::difference;
 using test::motion_of;
+using test::plane;
 using test::seen;
+using test::still;
 using ::testing::HasSubstr;
-
-const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
 
 SurfaceMap map_of(Device& device, const Frame& frame, const Camera& by = camera) {
   return make_surface_map(device, DepthMap(frame), by);
@@ -181,14 +180,6 @@ TEST(ProjectiveIcp, WaitsOnceAndAsksForNoMemoryAfterTheFirstFrame) {
 }
 
 // --- where the surface does not tell ---
-
-Frame plane(double depth, int from, int to, double slope = 0) {
-  Frame frame{DepthImage(camera.width, camera.height), {}, {}};
-  for (int v = 20; v < 100; ++v)
-    for (int u = from; u < to; ++u)
-      frame.depth(u, v) = static_cast<float>(depth / (1 - slope * (u - camera.cx) / camera.fx));
-  return frame;
-}
 
 TEST(ProjectiveIcp, OfAPlaneFindsTheDistanceAndKeepsTheRestAtTheStart) {
   const Eigen::Isometry3d start(Eigen::Translation3d(4, -3, 0) *

@@ -18,10 +18,10 @@ namespace pliant {
 namespace {
 
 using test::camera;
-using test::degree;
 using test::difference;
 using test::middle;
 using test::motion_of;
+using test::plane;
 using test::seen;
 
 /// A depth image as ICP takes it.
@@ -263,13 +263,6 @@ TEST(RigidIcp, SameBits) {
 }
 
 // --- where there is no answer ---
-
-Frame plane(double depth, int from, int to) {
-  Frame frame{DepthImage(camera.width, camera.height), {}, {}};
-  for (int v = 20; v < 100; ++v)
-    for (int u = from; u < to; ++u) frame.depth(u, v) = static_cast<float>(depth);
-  return frame;
-}
 
 TEST(RigidIcp, OfAPlaneFindsTheDistanceAndSaysThatItMaySlide) {
   const RigidIcpResult result = align(plane(600, 40, 120), plane(620, 40, 120));

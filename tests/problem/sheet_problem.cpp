@@ -6,6 +6,7 @@
 #include <random>
 
 #include "framework/deformation/warp.h"
+#include "framework/geometry/point_set.h"
 
 namespace pliant::test {
 namespace {
@@ -23,15 +24,9 @@ Points scatter(const Sheet& sheet, int count, unsigned seed) {
   return points;
 }
 
-std::vector<float> flat(const Points& points) {
-  std::vector<float> values;
-  for (const auto& point : points) values.insert(values.end(), point.data(), point.data() + 3);
-  return values;
-}
-
 Influences influences_of(const Points& points, const Points& nodes, int wanted) {
   const int k = std::min(wanted, static_cast<int>(nodes.size()) - 1);
-  if (k > 0) return compute_influences_reference(flat(points), nodes, k);
+  if (k > 0) return compute_influences_reference(flatten(points).host(), nodes, k);
   return {1, Array<int>(std::vector<int>(points.size(), 0)),
           Array<float>(std::vector<float>(points.size(), 1))};
 }
@@ -52,7 +47,7 @@ std::shared_ptr<Constraints> constrain(const Sheet& sheet, const DeformationGrap
     data.insert(data.end(), normal.data(), normal.data() + 3);
   }
   return std::make_shared<Constraints>(
-      Constraints{Array<float>(flat(points)), influences_of(points, graph.nodes, sheet.per_point),
+      Constraints{flatten(points), influences_of(points, graph.nodes, sheet.per_point),
                   Array<float>(std::move(data)), Array<float>(std::vector<float>(points.size(), 1))});
 }
 

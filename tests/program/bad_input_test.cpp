@@ -11,7 +11,7 @@
 #include "framework/io/scene_flow.h"
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::AllOf;
@@ -226,4 +226,4 @@ TEST_F(BadInputTest, NoFiniteAnswer) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

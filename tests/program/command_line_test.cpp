@@ -5,7 +5,7 @@
 
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -143,4 +143,4 @@ TEST_F(CommandLineTest, UnknownWordsAreAnsweredWithWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

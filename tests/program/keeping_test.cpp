@@ -10,7 +10,7 @@
 #include "framework/io/images.h"
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -222,4 +222,4 @@ TEST_F(KeepingTest, RepeatsTellMedianAndSpread) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -5,7 +5,7 @@
 #include "framework/io/images.h"
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::AllOf;
@@ -81,4 +81,4 @@ TEST_F(MakeData, WhatIsNoDataIsAnError) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -7,7 +7,7 @@
 #include <functional>
 #include <sstream>
 
-namespace pliant::testing {
+namespace pliant::test {
 
 std::vector<std::string> ProgramRun::errors() const {
   std::vector<std::string> lines;
@@ -43,4 +43,4 @@ std::string ProgramTest::text_of(const std::string& name) const {
   return {bytes.begin(), bytes.end()};
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -7,7 +7,7 @@
 
 #include "tests/io/test_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// What came of one call of the program.
 struct ProgramRun {
@@ -37,4 +37,4 @@ class ProgramTest : public TestFiles {
   std::string program_ = PLIANT_PROGRAM;
 };
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

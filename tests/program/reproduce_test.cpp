@@ -9,7 +9,7 @@
 
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ TEST_F(ReproduceTest, AFullDiskLeavesTheOldOne) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

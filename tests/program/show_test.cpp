@@ -15,7 +15,7 @@
 #include "framework/geometry/pixel_window.h"
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -145,4 +145,4 @@ TEST_F(ShowTest, WithoutAScreenSaysSoBeforeAnyWork) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

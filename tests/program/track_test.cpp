@@ -11,7 +11,7 @@
 
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,4 +95,4 @@ TEST_F(TrackProgramTest, RunDoesTheSameAndRegisteringNeedsNoModel) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -4,7 +4,7 @@
 
 #include "tests/program/program_run.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ TEST_F(ViewTest, NamesTheFileThatIsNotWhatARunWrites) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

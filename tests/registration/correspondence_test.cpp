@@ -6,6 +6,7 @@
 #include <numeric>
 #include <random>
 
+#include "framework/core/angle.h"
 #include "framework/registration/projective.h"
 #include "framework/registration/residual.h"
 #include "tests/device/shapes.h"
@@ -200,11 +201,11 @@ TEST(ClosestMatch, WalksToTheFootOfThePoint) {
 TEST(Match, IsDeniedToAPointThatTurnedAway) {
   const SurfaceMap wall = make_slope(0);
   const auto turned = [](double degrees) {
-    const double angle = degrees * std::numbers::pi / 180;
+    const double angle = degrees * degree;
     return Eigen::Vector3d(std::sin(angle), 0, -std::cos(angle));
   };
   ProjectiveOptions options = limits(100, std::numbers::pi);
-  options.max_view_angle = 80 * std::numbers::pi / 180;
+  options.max_view_angle = 80 * degree;
   const Eigen::Vector3d point(0, 0, 395);
   EXPECT_TRUE(match_one(options, wall, point, turned(79)).is_found);
   EXPECT_FALSE(match_one(options, wall, point, turned(81)).is_found);

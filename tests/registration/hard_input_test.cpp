@@ -14,7 +14,7 @@
 #include "framework/tracking/register_pair.h"
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::AllOf;
@@ -508,4 +508,4 @@ TEST_F(HardInputTest, GarbageIsRefusedOrRegisteredToSomethingFinite) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

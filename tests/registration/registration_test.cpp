@@ -9,13 +9,15 @@
 #include "framework/deformation/warp.h"
 #include "framework/evaluation/metrics.h"
 #include "framework/geometry/pixel_index.h"
+#include "framework/geometry/point_set.h"
 #include "framework/registration/nonrigid.h"
 #include "framework/tracking/scene.h"
 #include "tests/experiments/experiment_files.h"
 #include "tests/problem/sheet_problem.h"
+#include "tests/registration/scripted_solver.h"
 
 // The loop of Figure 4.1 on small sheets, with the components that come with the project.
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::AllOf;
@@ -214,36 +216,6 @@ TEST_F(RegistrationTest, NeedsAPointThatLands) {
 
 // --- what is returned ---
 
-/// Moves all nodes along z (mm), in each solve to the next of `depths`, whatever the problem asks for.
-class ScriptedSolver : public Solver {
- public:
-  explicit ScriptedSolver(std::vector<float> depths) : depths_(std::move(depths)) {}
-
-  std::unique_ptr<BoundSolver> bind(Problem& problem, Device&) const override {
-    return std::make_unique<Bound>(problem, depths_);
-  }
-
- private:
-  class Bound : public BoundSolver {
-   public:
-    Bound(Problem& problem, const std::vector<float>& depths) : problem_(problem), depths_(depths) {}
-    void solve() override {
-      auto& unknowns = problem_.unknowns().write_host();
-      for (std::size_t z = affine_size - 1; z < unknowns.size(); z += affine_size)
-        unknowns[z] = depths_.at(solves_);
-      ++solves_;
-    }
-    std::vector<SolverSummary> summaries() override { return std::vector<SolverSummary>(solves_); }
-
-   private:
-    Problem& problem_;
-    const std::vector<float>& depths_;
-    std::size_t solves_ = 0;
-  };
-
-  std::vector<float> depths_;
-};
-
 /// The sheet and the same one `distance` mm further away.
 FramePair moved_away(FramePair pair, float distance) {
   pair.target = pair.source;
@@ -384,19 +356,12 @@ Eigen::Vector3f translation(const std::vector<float>& affine, std::size_t node) 
   return Eigen::Vector3f(affine.data() + affine_size * node + 9);
 }
 
-std::vector<float> flat(const std::vector<Eigen::Vector3f>& points) {
-  std::vector<float> values;
-  for (const auto& point : points) values.insert(values.end(), point.data(), point.data() + 3);
-  return values;
-}
-
 /// Where the deformation that `before` ended with moves `points`.
 std::vector<Eigen::Vector3f> moved_by(const Binding& before, const std::vector<Eigen::Vector3f>& points,
                                       int k) {
-  const PointSet rest{Array<float>(flat(points)), Array<float>(std::vector<float>(3 * points.size(), 0))};
+  const PointSet rest{flatten(points), Array<float>(std::vector<float>(3 * points.size(), 0))};
   const auto influences = compute_influences_reference(rest.points.host(), before.nodes, k);
-  const auto moved =
-      warp_reference(rest, influences, Array<float>(flat(before.nodes)), Array<float>(before.end));
+  const auto moved = warp_reference(rest, influences, flatten(before.nodes), Array<float>(before.end));
   return unflatten(moved.points);
 }
 
@@ -619,4 +584,4 @@ TEST_F(RegistrationTest, FeaturesPullWhereDepthCannotTell) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -6,7 +6,7 @@
 #include "tests/experiments/experiment_files.h"
 
 // Weights and scales of losses that go from initial values to final ones.
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 TEST(Schedule, RunsOutOverItsIterations) {
@@ -122,4 +122,4 @@ TEST_F(ScheduledRegistration, ASolveThatFailsEndsTheLoopAtOnce) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -8,7 +8,7 @@
 #include "tests/experiments/experiment_files.h"
 
 // Registrations one after the other, as of the frames of a stream, on one device.
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 class StreamTest : public ExperimentFiles {
@@ -72,4 +72,4 @@ TEST_F(StreamTest, TenThousandFramesTakeNoMoreMemoryThanAHundred) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

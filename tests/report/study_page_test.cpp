@@ -5,7 +5,7 @@
 #include "tests/io/test_files.h"
 #include "tests/report/sample_study.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST(HtmlPage, SaysSoWhereFiguresCannotMove) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -39,4 +39,4 @@ TEST(Table, PageSetsNamesFromTheLeftAndFiguresFromTheRight) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -10,13 +10,13 @@
 namespace pliant {
 namespace {
 
+using test::data_error_of;
+using test::difference;
+using test::rendered_face;
+using test::RenderedFace;
+using test::segmentation_of;
 using ::testing::AllOf;
-using testing::data_error_of;
-using testing::difference;
 using ::testing::HasSubstr;
-using testing::rendered_face;
-using testing::RenderedFace;
-using testing::segmentation_of;
 
 const std::vector<std::string> default_cascades{"haarcascade_frontalface_default",
                                                 "haarcascade_frontalface_alt"};
@@ -112,7 +112,7 @@ TEST(Haar, ACascadeThatIsMissingNamesWhatToInstall) {
                     HasSubstr("did you mean 'haarcascade_frontalface_alt'"), HasSubstr("opencv-data")));
 }
 
-class CascadeFile : public testing::TestFiles {};
+class CascadeFile : public test::TestFiles {};
 
 TEST_F(CascadeFile, ThatIsNoneIsAnError) {
   for (const char* text : {"no XML", "<?xml version=\"1.0\"?><opencv_storage><a>1</a></opencv_storage>"}) {

@@ -11,7 +11,7 @@
 #include "framework/geometry/render.h"
 #include "framework/segmentation/segmentations.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 /// The component of a kind that a section describes.
@@ -65,4 +65,4 @@ int difference(const PixelWindow& a, const PixelWindow& b) {
                    std::abs(a.top + a.height - b.top - b.height)});
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

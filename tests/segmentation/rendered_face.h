@@ -8,7 +8,7 @@
 #include "framework/geometry/rig.h"
 #include "framework/imaging/segmentation.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// The segmentation that a section of an experiment file describes, e.g. "{type: haar, margin: 3}".
 std::unique_ptr<Segmentation> segmentation_of(const std::string& section);
@@ -30,4 +30,4 @@ PixelWindow true_window(const PixelWindow& color_window, const RenderedFace& fac
 /// The largest distance between borders of two windows, pixels.
 int difference(const PixelWindow& a, const PixelWindow& b);
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

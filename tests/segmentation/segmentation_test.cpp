@@ -12,10 +12,10 @@
 namespace pliant {
 namespace {
 
+using test::data_error_of;
+using test::segmentation_of;
 using ::testing::AllOf;
-using testing::data_error_of;
 using ::testing::HasSubstr;
-using testing::segmentation_of;
 
 constexpr int width = 64;
 constexpr int height = 48;
@@ -72,7 +72,7 @@ TEST(BoundingBox, HeedsTheMask) {
   EXPECT_EQ(segmentation_of("{type: bounding_box}")->find(frame, rig)->window, (PixelWindow{30, 4, 10, 20}));
 }
 
-class MaskSegmentation : public testing::TestFiles {
+class MaskSegmentation : public test::TestFiles {
  protected:
   MaskSegmentation() {
     MaskImage mask(width, height);

@@ -7,10 +7,10 @@
 namespace pliant {
 namespace {
 
-using testing::difference;
-using testing::rendered_face;
-using testing::RenderedFace;
-using testing::true_window;
+using test::difference;
+using test::rendered_face;
+using test::RenderedFace;
+using test::true_window;
 
 constexpr double band = 150;  // mm
 constexpr int speck = 100;    // pixels

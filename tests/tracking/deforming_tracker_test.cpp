@@ -8,7 +8,7 @@
 #include "tests/experiments/experiment_files.h"
 
 // A head that turns a little and then inflates its cheeks, tracked as a model that may deform.
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -153,4 +153,4 @@ TEST_F(DeformingTracker, RigidOnlyTracksAsIfThereWereNoPolicy) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

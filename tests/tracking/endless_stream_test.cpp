@@ -10,7 +10,7 @@
 #include "tests/experiments/experiment_files.h"
 
 // A rippled surface with two hills of which one comes out as the other goes in, and back, for 10,000 frames.
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 constexpr Camera small{64, 64, 15.5, 11.5, 32, 24};
@@ -107,4 +107,4 @@ INSTANTIATE_TEST_SUITE_P(PoliciesAndUpdates, EndlessStream,
                                                       "update={type: warp_field, node_spacing: 30}"}));
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

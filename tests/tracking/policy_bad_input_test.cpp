@@ -11,7 +11,7 @@
 #include "tests/experiments/experiment_files.h"
 
 // A bowl before a still camera, out of whose middle a hill grows.
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::AllOf;
@@ -188,4 +188,4 @@ TEST_F(PolicyBadInput, WaitsForAFirstFrameThatShowsTheObject) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

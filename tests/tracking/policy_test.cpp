@@ -9,7 +9,7 @@
 #include "tests/experiments/experiment_files.h"
 
 // When a model is registered, and what an experiment may ask for.
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::AllOf;
@@ -92,4 +92,4 @@ TEST_F(PolicyTest, BadNumbersAreRefused) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

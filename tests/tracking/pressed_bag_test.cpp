@@ -5,7 +5,7 @@
 #include "framework/tracking/tracker.h"
 #include "tests/experiments/experiment_files.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 constexpr const char* kPressedBag = R"(
@@ -56,4 +56,4 @@ TEST_F(PressedBag, IsFollowedByAWarpField) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -1,10 +1,9 @@
 #include <gmock/gmock.h>
 
-#include <numbers>
-
 #include "experiments/datasets/frame_source.h"
 #include "experiments/runner/components.h"
 #include "framework/config/config.h"
+#include "framework/core/angle.h"
 #include "framework/tracking/tracker.h"
 
 // A camera that goes a little around a head, which then is suddenly elsewhere.
@@ -13,7 +12,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr int smooth = 10;  // frames before the leap
 const Eigen::Vector3d middle(0, 0, 700);
 

@@ -9,7 +9,7 @@
 #include "tests/experiments/experiment_files.h"
 
 // A camera that goes a little around a head, frame by frame.
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -216,4 +216,4 @@ TEST_F(TrackerFocalLength, IsToldWhereItIsWrong) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

@@ -1,4 +1,5 @@
 #include "framework/tracking/tracking_error.h"
+#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -187,7 +188,7 @@ TEST(TrackingError, LeavesOutWhatIsTooFarOrTurnsAway) {
   EXPECT_EQ(error.matched, 10 * kCamera.height);
   EXPECT_NEAR(error.mean, 29, 1e-3);
   const auto leaning = [](double degrees) {
-    const double angle = degrees * std::numbers::pi / 180;
+    const double angle = degrees * degree;
     SurfaceMap model = wall([](int, int) { return 500; });
     Vectors normals;
     for (const Eigen::Vector3f& point : unflatten(model.points())) {

@@ -9,11 +9,11 @@
 namespace pliant {
 namespace {
 
-using testing::data_error_of;
+using test::data_error_of;
 using ::testing::HasSubstr;
 
 /// A triangle of 1, 2 and 3 m along the axes of a glTF file.
-class AugmentationSection : public testing::TestFiles {
+class AugmentationSection : public test::TestFiles {
  protected:
   AugmentationSection() {
     const std::size_t positions = glb_.vectors({1, 0, 0, 0, 2, 0, 0, 0, 3});
@@ -38,7 +38,7 @@ class AugmentationSection : public testing::TestFiles {
     return vertices;
   }
 
-  testing::GlbFile glb_;
+  test::GlbFile glb_;
 };
 
 TEST_F(AugmentationSection, StandsUprightAndLooksAtTheCamera) {

@@ -7,7 +7,7 @@
 #include "experiments/view/model_distance.h"
 #include "tests/view/sample_tracked.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::AllOf;
@@ -127,4 +127,4 @@ TEST(ModelDistances, AreThoseToThePlanesOfTheModel) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test

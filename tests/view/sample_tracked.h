@@ -5,7 +5,7 @@
 
 #include "experiments/view/tracked_frame.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 
 /// A wall 700 mm before the camera, seen in a window of its image; the model of it lies 4 mm behind in the
 /// window's left half. Both have no point in the window's first column.
@@ -58,4 +58,4 @@ inline std::size_t colors_in(const ColorImage& picture, const PixelWindow& part)
   return static_cast<std::size_t>(std::unique(colors.begin(), colors.end()) - colors.begin());
 }
 
-}  // namespace pliant::testing
+}  // namespace pliant::test

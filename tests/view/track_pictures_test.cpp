@@ -14,7 +14,7 @@
 #include "tests/io/test_files.h"
 #include "tests/view/sample_tracked.h"
 
-namespace pliant::testing {
+namespace pliant::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -237,4 +237,4 @@ TEST(TrackView, StaysSmall) {
 }
 
 }  // namespace
-}  // namespace pliant::testing
+}  // namespace pliant::test
