@@ -1,6 +1,5 @@
 include(GNUInstallDirs)
 include(PliantEmbed)
-include(PliantPrecompiled)
 
 # pliant_room(NAME SOURCES file... [LINK target...] [PRIVATE_LINK target...])
 # One library per room of the house, called pliant_NAME, exported as Pliant::NAME.
@@ -13,6 +12,5 @@ function(pliant_room NAME)
   target_compile_features(pliant_${NAME} PUBLIC cxx_std_20)
   target_link_libraries(pliant_${NAME} PUBLIC ${ROOM_LINK}
     PRIVATE ${ROOM_PRIVATE_LINK} $<BUILD_INTERFACE:pliant_options>)
-  pliant_reuse_precompiled(pliant_${NAME} pliant_precompiled)
   set_property(GLOBAL APPEND PROPERTY PLIANT_ROOMS pliant_${NAME})
 endfunction()

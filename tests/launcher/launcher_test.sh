@@ -88,6 +88,15 @@ builds_then_runs() {
   expect "$(grep -c -- --build "$CALLS")" 2
 }
 
+sources_are_joined_by_the_first_configuration_alone() {
+  make_checkout original
+  run "$checkout/pliant" run
+  expect_in "-DCMAKE_UNITY_BUILD=ON" "$(grep -- --preset "$CALLS")"
+  : >"$CALLS"
+  run "$checkout/pliant" bench
+  expect "$(grep -- --preset "$CALLS")" "cmake --preset release -B $checkout/build/release -DPLIANT_BENCHMARKS=ON"
+}
+
 a_copy_builds_itself() {
   make_checkout original
   "$checkout/pliant" >/dev/null 2>&1
