@@ -17,6 +17,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # GCC bug 105651: `"text" + std::string` warns of copies that cannot happen.
   target_compile_options(pliant_options INTERFACE -Wno-restrict)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(pliant_options INTERFACE -Wno-subobject-linkage) # takes sources that are joined for headers
+endif()
 if(PLIANT_WARNINGS_AS_ERRORS)
   target_compile_options(pliant_options INTERFACE -Werror)
 endif()

@@ -1,7 +1,6 @@
 #include "experiments/datasets/scene_section.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

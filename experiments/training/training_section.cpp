@@ -1,4 +1,3 @@
-#include <numbers>
 
 #include "experiments/training/head_forest_training.h"
 

@@ -40,6 +40,15 @@ bool in_range(const Parameter& row, double value) {
   return !row.highest() || value <= *row.highest();
 }
 
+std::string limits_text(const Parameter& row) {
+  const std::string highest = row.highest() ? fmt::format("{}", *row.highest()) : "";
+  if (!row.lowest()) return highest.empty() ? "" : "at most " + highest;
+  if (row.lowest_excluded())
+    return fmt::format("above {}{}{}", *row.lowest(), highest.empty() ? "" : " and at most ", highest);
+  if (highest.empty()) return fmt::format("at least {}", *row.lowest());
+  return fmt::format("from {} to {}", *row.lowest(), highest);
+}
+
 }  // namespace
 
 ordered_json typed_scalar(const Parameter& row, const std::string& text) {
@@ -49,7 +58,7 @@ ordered_json typed_scalar(const Parameter& row, const std::string& text) {
   }
   if (row.type() == ParameterType::integer) {
     const auto value = parse_number<std::int64_t>(text);
-    if (value && in_range(row, static_cast<double>(*value))) return *value;
+    if (value && in_range(row, static_cast<double>(*value)) && *value % row.step() == 0) return *value;
     return nullptr;
   }
   if (row.type() == ParameterType::real) {
@@ -87,12 +96,9 @@ ordered_json typed_default(const Parameter& row) {
 }
 
 std::string range_text(const Parameter& row) {
-  const std::string highest = row.highest() ? fmt::format("{}", *row.highest()) : "";
-  if (!row.lowest()) return highest.empty() ? "" : "at most " + highest;
-  if (row.lowest_excluded())
-    return fmt::format("above {}{}{}", *row.lowest(), highest.empty() ? "" : " and at most ", highest);
-  if (highest.empty()) return fmt::format("at least {}", *row.lowest());
-  return fmt::format("from {} to {}", *row.lowest(), highest);
+  const std::string limits = limits_text(row);
+  if (row.step() == 1) return limits;
+  return fmt::format("{}{}a multiple of {}", limits, limits.empty() ? "" : ", ", row.step());
 }
 
 std::string boolean_hint(std::string text) {

@@ -122,6 +122,7 @@ class SchemaWriter {
     ordered_json& limited = row.type() == ParameterType::reals ? schema["items"] : schema;
     if (row.lowest()) limited[lowest_key(row)] = limit(*row.lowest());
     if (row.highest()) limited["maximum"] = limit(*row.highest());
+    if (row.step() > 1) schema["multipleOf"] = row.step();
     return schema;
   }
 

@@ -34,6 +34,11 @@ Parameter&& Parameter::above(double lowest) && {
   return std::move(*this);
 }
 
+Parameter&& Parameter::multiple_of(std::int64_t step) && {
+  step_ = step;
+  return std::move(*this);
+}
+
 Parameter&& Parameter::optional() && {
   optional_ = true;
   return std::move(*this);

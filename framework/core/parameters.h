@@ -42,7 +42,8 @@ class Parameter {
   Parameter&& range(double lowest, double highest) &&;  ///< both ends allowed
   Parameter&& at_least(double lowest) &&;  ///< of a `components` or `groups` parameter: so many entries
   Parameter&& above(double lowest) &&;     ///< the end itself is not allowed
-  Parameter&& optional() &&;               ///< may be absent, and has no default
+  Parameter&& multiple_of(std::int64_t step) &&;  ///< of an `integer` parameter
+  Parameter&& optional() &&;                      ///< may be absent, and has no default
   /// Of an optional `components` parameter: the components, each under its own name, that are meant where the
   /// key is absent; an empty map means none.
   Parameter&& by_default(std::vector<std::string> names) &&;
@@ -58,6 +59,8 @@ class Parameter {
   std::optional<double> lowest() const { return lowest_; }
   std::optional<double> highest() const { return highest_; }
   bool lowest_excluded() const { return lowest_excluded_; }
+  /// An integer is a multiple of it; 1: any is.
+  std::int64_t step() const { return step_; }
   const std::vector<std::string>& choices() const { return choices_; }
   const std::vector<std::string>& default_names() const { return default_names_; }
   /// The key of an `overrides` parameter's sweeps; empty where it has none.
@@ -100,6 +103,7 @@ class Parameter {
   std::optional<double> lowest_;
   std::optional<double> highest_;
   bool lowest_excluded_ = false;
+  std::int64_t step_ = 1;
   std::size_t size_ = 0;
   bool optional_ = false;
 };

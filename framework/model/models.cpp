@@ -1,8 +1,5 @@
-#include <fmt/format.h>
-
 #include <memory>
 
-#include "framework/core/error.h"
 #include "framework/model/tsdf.h"
 
 namespace pliant {
@@ -17,11 +14,7 @@ class TsdfKind : public ModelKind {
         distance_(section.real("distance")),
         margin_(section.real("margin")),
         truncation_{section.real("truncation"), section.real("least_truncation")},
-        max_weight_(static_cast<int>(section.integer("max_weight"))) {
-    if (resolution_ % TsdfGrid::brick_width != 0)
-      throw ConfigError(fmt::format("{}: resolution: {} is no multiple of {}", section.place(), resolution_,
-                                    TsdfGrid::brick_width));
-  }
+        max_weight_(static_cast<int>(section.integer("max_weight"))) {}
 
   std::unique_ptr<ReferenceModel> make(Device& device, const SurfaceMap& seen) const override {
     const TsdfGrid grid = is_fitted_ ? grid_around(seen, resolution_, margin_, truncation_)
@@ -46,7 +39,8 @@ void register_models(Registry& registry) {
           integer("resolution", 256)
               .unit("voxel")
               .range(32, 512)
-              .doc("Voxels along the longest side of the volume, a multiple of 16; 3 bytes each"),
+              .multiple_of(TsdfGrid::brick_width)
+              .doc("Voxels along the longest side of the volume; 3 bytes each"),
           choice("volume", {"scene", "fitted"}, "scene")
               .doc("scene: a cube before the first camera; fitted: what is around the first frame's points"),
           real("size", 3000).unit("mm").range(10, 1e5).doc("Side of a scene's cube"),

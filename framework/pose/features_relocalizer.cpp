@@ -175,7 +175,7 @@ ParameterTable features_table() {
           .unit("mm")
           .above(0)
           .doc("the model's middle moves from one keyframe to the next"),
-      real("keyframe_angle", options.keyframes.angle / degree)
+      real("keyframe_angle", whole_degrees(options.keyframes.angle))
           .unit("degree")
           .above(0)
           .doc("or the model turns"),

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <vector>
+
+#include "framework/core/angle.h"
 
 namespace pliant {
 
@@ -22,9 +23,9 @@ struct Keyframe {
 };
 
 struct KeyframeOptions {
-  int most = 20;                         ///< at least 2
-  double distance = 80;                  ///< mm
-  double angle = std::numbers::pi / 15;  ///< radians (12 degrees)
+  int most = 20;               ///< at least 2
+  double distance = 80;        ///< mm
+  double angle = 12 * degree;  ///< radians
 };
 
 /// The keyframes of a model: from one to the next its middle moved, or turned, by some way.

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <memory>
 
 #include "framework/core/angle.h"
@@ -30,7 +29,7 @@ ParameterTable icp_table() {
           .at_least(0)
           .doc("matches may be further apart by so many standard deviations of a structured-light camera's "
                "depth, which is more than 10 mm beyond 1.5 m; 0: they may not"),
-      real("max_angle", std::round(options.max_angle / degree))
+      real("max_angle", whole_degrees(options.max_angle))
           .unit("degree")
           .range(0, 180)
           .doc("matches whose normals differ by more are rejected"),
@@ -42,7 +41,7 @@ ParameterTable icp_table() {
           .unit("mm")
           .above(0)
           .doc("max_distance of the coarsest level; those between by equal factors"),
-      real("coarse_angle", std::round(options.coarse_angle / degree))
+      real("coarse_angle", whole_degrees(options.coarse_angle))
           .unit("degree")
           .range(0, 180)
           .doc("max_angle of the coarsest level; those between by equal steps"),
@@ -66,7 +65,7 @@ ParameterTable icp_table() {
           .unit("mm")
           .above(0)
           .doc("failed where both the camera and the middle of the model moved further than that"),
-      real("max_turn", std::round(options.max_turn / degree))
+      real("max_turn", whole_degrees(options.max_turn))
           .unit("degree")
           .range(0, 180)
           .doc("failed where it turned further than that"),

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <vector>
 
+#include "framework/core/angle.h"
 #include "framework/device/array.h"
 #include "framework/device/device.h"
 #include "framework/geometry/surface_map.h"
@@ -18,24 +18,24 @@ struct ProjectiveIcpOptions {
   /// 1.9 (z - 0.4)^2 mm with z in metres [Nguyen, Izadi, Lovell 2012]: beyond 1.5 m these are more than
   /// 10 mm. 0: it may not.
   double noise = 3;
-  /// Radians (20 degrees); matches whose normals differ by more are rejected. A point of the target without a
+  /// Radians; matches whose normals differ by more are rejected. A point of the target without a
   /// normal, as at a rim, is judged by distance.
-  double max_angle = std::numbers::pi / 9;
+  double max_angle = 20 * degree;
   /// From coarse to fine. The last one takes all points of the source, each before it half as many in u and
   /// v.
   int levels = 3;
-  int iterations = 10;                         ///< at most, in each level
-  double coarse_distance = 80;                 ///< mm, of the coarsest level; those between by equal factors
-  double coarse_angle = std::numbers::pi / 3;  ///< radians (60 degrees), likewise, by equal steps
-  double tolerance = 0.05;  ///< mm at the extent of the source; a shorter step ends the last level
+  int iterations = 10;                ///< at most, in each level
+  double coarse_distance = 80;        ///< mm, of the coarsest level; those between by equal factors
+  double coarse_angle = 60 * degree;  ///< radians, likewise, by equal steps
+  double tolerance = 0.05;            ///< mm at the extent of the source; a shorter step ends the last level
   /// Pull to the start in the last level, as a share of the mean diagonal of J^T J with turns in mm at the
   /// source's extent.
   double damping = 1e-4;
   // A pose is a failure:
-  double min_overlap = 0.1;  ///< where a smaller share of the source meets a point of the target
-  double min_inliers = 0.3;  ///< where a smaller share of what meets one has an accepted match
-  double max_shift = 150;    ///< mm, where both the camera and the middle of the source moved further
-  double max_turn = std::numbers::pi / 9;  ///< radians (20 degrees), where it turned further from the start
+  double min_overlap = 0.1;       ///< where a smaller share of the source meets a point of the target
+  double min_inliers = 0.3;       ///< where a smaller share of what meets one has an accepted match
+  double max_shift = 150;         ///< mm, where both the camera and the middle of the source moved further
+  double max_turn = 20 * degree;  ///< radians, where it turned further from the start
 };
 
 /// A level for a source in some window.

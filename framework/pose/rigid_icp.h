@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/core/angle.h"
 #include "framework/device/array.h"
 #include "framework/device/device.h"
 #include "framework/geometry/surface_map.h"
@@ -12,15 +13,15 @@
 namespace pliant {
 
 struct RigidIcpOptions {
-  double max_distance = 10;    ///< mm; matches further apart are rejected
-  double max_angle = 0.34907;  ///< radians (20 degrees); matches whose normals differ by more are rejected
-  int step = 1;                ///< every so-many-th point of the source is matched, 1: all
-  int levels = 4;              ///< from coarse to fine
-  int iterations = 10;         ///< at most, in each level
+  double max_distance = 10;        ///< mm; matches further apart are rejected
+  double max_angle = 20 * degree;  ///< radians; matches whose normals differ by more are rejected
+  int step = 1;                    ///< every so-many-th point of the source is matched, 1: all
+  int levels = 4;                  ///< from coarse to fine
+  int iterations = 10;             ///< at most, in each level
   /// Of the coarsest level, in extents of the source (root mean square distance of its points from their
   /// mean). The levels go from there down to max_distance by equal factors.
   double coarse_distance = 1;
-  double coarse_angle = 1.309;  ///< radians (75 degrees), likewise, by equal steps
+  double coarse_angle = 75 * degree;  ///< radians, likewise, by equal steps
   /// In the last level, once it has matches: those are rejected too whose distance to the plane is more than
   /// this many root mean squares of the last accepted ones (a tenth of max_distance at least). What deforms
   /// does not pull at the rest then. 0: none are.
@@ -29,7 +30,7 @@ struct RigidIcpOptions {
   /// target: unturned, turned by this about each axis and about both diagonals of x and y, and by twice this
   /// about x and y, all of them both ways. The best by TwoWayResidual after the coarsest level goes on. 0:
   /// only the given one.
-  double search_angle = 0.5236;
+  double search_angle = 30 * degree;
 };
 
 /// A surface as a camera sees it, and which of its pixels count.

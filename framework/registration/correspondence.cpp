@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "framework/core/angle.h"
 #include "framework/registration/matching.h"
@@ -197,14 +196,13 @@ namespace {
 
 /// Rows that all correspondences share, with defaults of their own.
 std::vector<Parameter> match_rows(const ProjectiveOptions& defaults) {
-  const auto degrees = [](double radians) { return std::round(radians / degree); };
   return {
       real("max_distance", defaults.max_distance).unit("mm").above(0).doc("A match further away is rejected"),
-      real("max_angle", degrees(defaults.max_angle))
+      real("max_angle", whole_degrees(defaults.max_angle))
           .unit("degree")
           .range(0, 180)
           .doc("A match whose normals differ by more is rejected; without normals distance alone decides"),
-      real("max_view_angle", degrees(defaults.max_view_angle))
+      real("max_view_angle", whole_degrees(defaults.max_view_angle))
           .unit("degree")
           .range(0, 180)
           .doc("A point whose normal turns further away from the camera cannot be seen and has no match"),
@@ -245,7 +243,7 @@ void register_projective(Registry& registry) {
 void register_closest(Registry& registry) {
   ProjectiveOptions defaults;
   defaults.max_distance = 40;
-  defaults.max_angle = std::numbers::pi / 3;
+  defaults.max_angle = 60 * degree;
   defaults.max_view_angle = 80 * degree;
   defaults.rim = 2;
   std::vector<Parameter> rows = match_rows(defaults);

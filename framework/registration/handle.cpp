@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
+#include "framework/core/angle.h"
 #include "framework/core/error.h"
 
 namespace pliant {
@@ -33,7 +33,7 @@ Handle make_handle(const Parameters& parameters) {
   Handle handle;
   handle.radius = static_cast<float>(parameters.real("radius"));
   handle.move = vector3(parameters.reals("move"));
-  handle.rotation = vector3(parameters.reals("rotate")) * std::numbers::pi_v<float> / 180;
+  handle.rotation = vector3(parameters.reals("rotate")) * static_cast<float>(degree);
   handle.place = parameters.place();
   return handle;
 }

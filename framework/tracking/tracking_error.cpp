@@ -25,7 +25,7 @@ ParameterTable tracking_error_table() {
               .unit("mm")
               .above(0)
               .doc("What is further apart in depth does not belong together, and does not count"),
-          real("max_view_angle", std::round(defaults.max_view_angle / degree))
+          real("max_view_angle", whole_degrees(defaults.max_view_angle))
               .unit("degree")
               .range(0, 90)
               .doc("Points of the model that turn further away from the camera do not count"),

@@ -124,6 +124,10 @@ TEST_F(ConfigErrorLine, OutOfRange) {
   EXPECT_THAT(errors(minimal + "stop: {limit: 0, rounds: 0}\n"),
               ElementsAre("exp.yaml:3:15: 'stop.limit' is '0'; expected a finite number above 0 (mm)",
                           "exp.yaml:3:26: 'stop.rounds' is '0'; expected an integer at least 1"));
+  EXPECT_THAT(
+      errors(minimal + "compare: {pixels: 36}\n"),
+      ElementsAre(
+          "exp.yaml:3:20: 'compare.pixels' is '36'; expected an integer from 16 to 64, a multiple of 8"));
 }
 
 TEST_F(ConfigErrorLine, BooleansAreTrueOrFalse) {

@@ -329,7 +329,7 @@ data: sheet
     "metrics": ["epe"],
     "variants": {"v": {"data": {"type": "pair", "depth": "PATH"}, "solver": {"type": "ceres_lm"},
                        "energies": {"rotation": {}}}},
-    "compare": {"repeat": 1, "with": {}}})")
+    "compare": {"repeat": 1, "pixels": 32, "with": {}}})")
                              .patch({{{"op", "replace"},
                                       {"path", "/variants/v/data/depth"},
                                       {"value", (folder_ / "a.png").string()}}})

@@ -53,6 +53,8 @@ TEST_F(Schema, GivesTypesAndRanges) {
   EXPECT_EQ(solver["iterations"]["minimum"].dump(), "1");
   EXPECT_EQ(solver["iterations"]["maximum"].dump(), "100");
   EXPECT_EQ(solver["tolerance"]["type"], "number");
+  EXPECT_EQ(keys_["compare"]["properties"]["pixels"]["multipleOf"], 8);
+  EXPECT_FALSE(solver["iterations"].contains("multipleOf"));
   const auto& rotation = definitions_["energy.rotation"]["properties"];
   EXPECT_EQ(rotation["weight"]["exclusiveMinimum"], 0);
   EXPECT_FALSE(rotation["weight"].contains("minimum"));

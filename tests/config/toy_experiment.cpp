@@ -59,7 +59,8 @@ ParameterTable toy_table() {
                          group("deep", {boolean("early", false)})}),
           words("metrics").optional(),
           overrides("variants"),
-          group("compare", {integer("repeat", 1), overrides("with")})};
+          group("compare", {integer("repeat", 1), integer("pixels", 32).range(16, 64).multiple_of(8),
+                            overrides("with")})};
 }
 
 ParameterTable swept_toy_table() {

@@ -46,4 +46,10 @@ std::string config_error_of(const std::string& section) {
   return "";
 }
 
+int count_points(const DepthImage& depth) {
+  int count = 0;
+  for (const float value : depth.pixels()) count += value > 0 ? 1 : 0;
+  return count;
+}
+
 }  // namespace pliant::test

@@ -20,6 +20,9 @@ struct LoadedPair : FramePair {
 };
 LoadedPair load(const FrameSource& source, std::uint64_t seed);
 
+/// Pixels that have depth.
+int count_points(const DepthImage& depth);
+
 /// The message of the ConfigError that this throws, "" with a failure when it throws none.
 std::string config_error_of(const std::string& section);
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "framework/core/angle.h"
 #include "tests/datasets/data_of.h"
 
 namespace pliant {
@@ -20,7 +21,7 @@ DepthImage wall(float depth) { return DepthImage(kCamera.width, kCamera.height, 
 /// A plane through (0, 0, 800) whose normal is turned by some degrees about y from the optical axis.
 DepthImage slope(double degrees) {
   DepthImage depth(kCamera.width, kCamera.height);
-  const double tangent = std::tan(degrees * EIGEN_PI / 180);
+  const double tangent = std::tan(degrees * degree);
   for (int v = 0; v < kCamera.height; ++v)
     for (int u = 0; u < kCamera.width; ++u)
       depth(u, v) = static_cast<float>(800 / (1 + tangent * (u - kCamera.cx) / kCamera.fx));

@@ -6,6 +6,7 @@
 
 #include "experiments/datasets/mesh_stream.h"
 #include "experiments/datasets/rendered_mesh.h"
+#include "framework/core/angle.h"
 #include "tests/datasets/data_of.h"
 #include "tests/io/glb_file.h"
 #include "tests/io/rigged_glb.h"
@@ -15,6 +16,7 @@ namespace pliant {
 namespace {
 
 using test::config_error_of;
+using test::count_points;
 using test::data_error_of;
 using test::data_of;
 using test::load;
@@ -62,12 +64,6 @@ Eigen::Vector2d middle_of(const DepthImage& depth) {
         ++count;
       }
   return sum / count;
-}
-
-int count_points(const DepthImage& depth) {
-  int count = 0;
-  for (const float value : depth.pixels()) count += value > 0 ? 1 : 0;
-  return count;
 }
 
 // What rendered_mesh renders on the host is the same picture.
@@ -156,7 +152,7 @@ TEST_F(MeshSources, AreSeenByACameraThatMoves) {
                               [](float a, float b) { return (a > 0 ? a : 1e9F) < (b > 0 ? b : 1e9F); }),
             nearer_side + 100);
   EXPECT_NEAR(middle_of(frames[6].depth).x(), 79.5 - 131.25 * 70 / 700, 0.6);
-  EXPECT_NEAR(middle_of(frames[9].depth).x(), 79.5 - 131.25 * std::tan(5 * EIGEN_PI / 180), 0.8);
+  EXPECT_NEAR(middle_of(frames[9].depth).x(), 79.5 - 131.25 * std::tan(5 * degree), 0.8);
 }
 
 TEST_F(MeshSources, HaveAColourCameraOfTheirOwnWhereAsked) {

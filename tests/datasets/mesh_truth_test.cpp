@@ -22,9 +22,9 @@ using test::shared_device;
 const std::string camera = "image_width: 128, image_height: 96, focal_length: 105";
 
 /// The triangles of the target, which rays are cast on one by one.
-class Surface {
+class MeshSurface {
  public:
-  explicit Surface(const MeshScene& scene, int frame)
+  explicit MeshSurface(const MeshScene& scene, int frame)
       : vertices_(scene.vertices_at(scene.time_of(frame))), triangles_(scene.mesh.triangles) {}
 
   /// From a point to the plane of the first triangle on the ray from the camera to it.
@@ -69,7 +69,7 @@ Counts check_truth(const MeshStream& stream, int step) {
   const DepthImage depth = stream.exact_depth(1);
   const PairTruth truth = stream.truth(last).value();
   const Camera& from = stream.rig().depth;
-  const Surface target(stream.scene(), last);
+  const MeshSurface target(stream.scene(), last);
   Counts counts;
   for (std::size_t i = 0; i < depth.size(); i += static_cast<std::size_t>(step)) {
     const int u = static_cast<int>(i) % depth.width();

@@ -15,6 +15,7 @@ namespace pliant {
 namespace {
 
 using test::config_error_of;
+using test::count_points;
 using test::data_error_of;
 using test::data_of;
 using test::LoadedPair;
@@ -35,12 +36,6 @@ class RenderedSquare : public test::TestFiles {
     return test::load(*data_of(section(rest)), seed);
   }
 };
-
-int count_points(const DepthImage& depth) {
-  int count = 0;
-  for (const float value : depth.pixels()) count += value > 0 ? 1 : 0;
-  return count;
-}
 
 TEST_F(RenderedSquare, IsCentredAtItsDistance) {
   const LoadedPair pair = load("");

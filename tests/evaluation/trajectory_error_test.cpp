@@ -1,11 +1,11 @@
 #include "framework/evaluation/trajectory_error.h"
-#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "framework/core/angle.h"
 #include "framework/core/error.h"
 
 namespace pliant {

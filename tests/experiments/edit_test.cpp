@@ -3,11 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include <numbers>
 #include <set>
 
 #include "experiments/runner/runner.h"
 #include "framework/config/schema.h"
+#include "framework/core/angle.h"
 #include "framework/core/error.h"
 #include "tests/experiments/experiment_files.h"
 
@@ -58,22 +58,16 @@ class EditTest : public ExperimentFiles {
   ExperimentResult result_;
 };
 
-std::vector<std::string> keys(const ordered_json& json) {
-  std::vector<std::string> names;
-  for (const auto& item : json.items()) names.push_back(item.key());
-  return names;
-}
-
 TEST_F(EditTest, ResultTellsOfHandlesAndOfNothingThatNeedsATarget) {
   const ordered_json result = edit(plan(two_handles));
   EXPECT_EQ(result["schema"], 1);
   const ordered_json& run = result["runs"][0];
-  EXPECT_THAT(keys(run), ElementsAre("name", "warnings", "counts", "metrics", "initial", "handles", "energy",
-                                     "time_ms", "timing", "solver"));
-  EXPECT_THAT(keys(run["counts"]),
+  EXPECT_THAT(keys_of(run), ElementsAre("name", "warnings", "counts", "metrics", "initial", "handles",
+                                        "energy", "time_ms", "timing", "solver"));
+  EXPECT_THAT(keys_of(run["counts"]),
               ElementsAre("source_points", "nodes", "edges", "constraints", "unknowns", "solver_iterations"));
-  EXPECT_THAT(keys(run["metrics"]), ElementsAre("handle_residual_mean", "handle_residual_max"));
-  EXPECT_THAT(keys(run["handles"]), ElementsAre("left", "right"));
+  EXPECT_THAT(keys_of(run["metrics"]), ElementsAre("handle_residual_mean", "handle_residual_max"));
+  EXPECT_THAT(keys_of(run["handles"]), ElementsAre("left", "right"));
   EXPECT_EQ(run["handles"]["left"]["points"].get<int>() + run["handles"]["right"]["points"].get<int>(),
             run["counts"]["constraints"]);
   EXPECT_EQ(run["handles"]["left"]["residual_initial_mean"], 0);
@@ -110,7 +104,7 @@ TEST_F(EditTest, OneHandleTurnsTheWholeSurfaceRigidly) {
   const Handle handle{.pixel = Eigen::Vector2i(80, 60),
                       .radius = 60,
                       .move = {10, 0, 50},
-                      .rotation = {0, 0, 70 * std::numbers::pi_v<float> / 180}};
+                      .rotation = {0, 0, static_cast<float>(70 * degree)}};
   const Grip grip = take_hold(handle, result.source);
   EXPECT_LT((grip.motion.linear() * Eigen::Vector3f::UnitX() -
              Eigen::Vector3f(std::cos(handle.rotation.z()), std::sin(handle.rotation.z()), 0))

@@ -21,4 +21,10 @@ std::string ExperimentFiles::text_of(const std::string& name) const {
   return {bytes.begin(), bytes.end()};
 }
 
+std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
+  std::vector<std::string> names;
+  for (const auto& item : object.items()) names.push_back(item.key());
+  return names;
+}
+
 }  // namespace pliant::test

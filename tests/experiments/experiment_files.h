@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,8 @@ class ExperimentFiles : public TestFiles {
   Registry registry_;
   Workbench workbench_{registry_};
 };
+
+/// Of an object, in their order.
+std::vector<std::string> keys_of(const nlohmann::ordered_json& object);
 
 }  // namespace pliant::test

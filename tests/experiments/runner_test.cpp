@@ -41,12 +41,6 @@ class RunnerTest : public ExperimentFiles {
   std::unique_ptr<Task> task_ = make_register_task();
 };
 
-std::vector<std::string> keys(const ordered_json& json) {
-  std::vector<std::string> names;
-  for (const auto& item : json.items()) names.push_back(item.key());
-  return names;
-}
-
 void drop_times(ordered_json& json) {
   json["environment"].erase("date");
   for (auto& run : json["runs"]) {
@@ -57,30 +51,30 @@ void drop_times(ordered_json& json) {
 
 TEST_F(RunnerTest, ResultHasTheKeysThatOthersRead) {
   const ordered_json result = run(plan(""), "out");
-  EXPECT_THAT(keys(result), ElementsAre("schema", "experiment", "environment", "runs"));
+  EXPECT_THAT(keys_of(result), ElementsAre("schema", "experiment", "environment", "runs"));
   EXPECT_EQ(result["schema"], 1);
-  EXPECT_THAT(keys(result["environment"]),
+  EXPECT_THAT(keys_of(result["environment"]),
               IsSupersetOf({"version", "commit", "device", "opencl_driver", "libraries", "seed"}));
   ASSERT_EQ(result["runs"].size(), 1U);
   const ordered_json& entry = result["runs"][0];
-  EXPECT_THAT(keys(entry), ElementsAre("name", "termination", "reason", "warnings", "alignment", "counts",
-                                       "metrics", "initial", "aligned", "history", "returned_iteration",
-                                       "energy", "time_ms", "timing", "solver"));
-  EXPECT_THAT(keys(entry["alignment"]),
+  EXPECT_THAT(keys_of(entry), ElementsAre("name", "termination", "reason", "warnings", "alignment", "counts",
+                                          "metrics", "initial", "aligned", "history", "returned_iteration",
+                                          "energy", "time_ms", "timing", "solver"));
+  EXPECT_THAT(keys_of(entry["alignment"]),
               ElementsAre("method", "reason", "matches", "inliers", "rotation", "translation"));
   ASSERT_EQ(entry["history"].size(), entry["counts"]["outer_iterations"].get<std::size_t>() + 1);
-  EXPECT_THAT(keys(entry["history"][0]), ElementsAre("residual_mean", "robust", "matched"));
-  EXPECT_THAT(keys(entry["counts"]),
+  EXPECT_THAT(keys_of(entry["history"][0]), ElementsAre("residual_mean", "robust", "matched"));
+  EXPECT_THAT(keys_of(entry["counts"]),
               ElementsAre("source_points", "matched_points", "nodes", "edges", "constraints", "unknowns",
                           "outer_iterations", "solver_iterations"));
   for (const char* stage : {"metrics", "initial", "aligned"})
-    EXPECT_THAT(keys(entry[stage]),
+    EXPECT_THAT(keys_of(entry[stage]),
                 ElementsAre("residual_mean", "residual_sd", "coverage", "nearest_mean", "nearest_sd",
                             "epe_mean", "epe_sd", "epe_p95", "epe_moving_mean", "epe_seen_mean",
                             "epe_hidden_mean", "hidden_share"));
-  EXPECT_THAT(keys(entry["energy"]), ElementsAre("initial", "final", "per_iteration"));
+  EXPECT_THAT(keys_of(entry["energy"]), ElementsAre("initial", "final", "per_iteration"));
   EXPECT_EQ(entry["time_ms"].begin().key(), "total");
-  EXPECT_THAT(keys(entry["solver"]), ElementsAre("name", "linear_solver", "termination"));
+  EXPECT_THAT(keys_of(entry["solver"]), ElementsAre("name", "linear_solver", "termination"));
 }
 
 TEST_F(RunnerTest, ResultSaysWhatTheRegistrationCameTo) {

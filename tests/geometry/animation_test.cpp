@@ -1,9 +1,10 @@
 #include "framework/geometry/animation.h"
-#include "framework/core/angle.h"
 
 #include <gmock/gmock.h>
 
 #include <stdexcept>
+
+#include "framework/core/angle.h"
 
 namespace pliant {
 namespace {

@@ -1,5 +1,4 @@
 #include "framework/geometry/surface.h"
-#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +8,12 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/geometry/degrees_between.h"
+
 namespace pliant {
 namespace {
+
+using test::degrees_between;
 
 const Camera kCamera{525, 530, 79.5, 59.5, 160, 120};
 
@@ -24,11 +27,6 @@ Frame render(const std::function<double(double, double)>& depth_of) {
     }
   }
   return frame;
-}
-
-double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3d& b) {
-  const Eigen::Vector3d exact = a.cast<double>();
-  return std::atan2(exact.cross(b).norm(), exact.dot(b)) / degree;
 }
 
 /// A plane through (0, 0, 800) with the given normal.
@@ -75,11 +73,11 @@ TEST(SurfaceImage, DepthStepsAreNotMixed) {
   const Frame frame = render([](double a, double) { return a < 0 ? 800 : 850; });
   const SurfaceImage map = make_surface_image(frame, kCamera);
   for (int u = 0; u < kCamera.width; ++u) {
-    EXPECT_LT(degrees_between(map.normals(u, 60), {0, 0, -1}), 0.01) << u;
+    EXPECT_LT(degrees_between(map.normals(u, 60), Eigen::Vector3d{0, 0, -1}), 0.01) << u;
   }
   // The same step counts as one surface when it is allowed to.
   const SurfaceImage mixed = make_surface_image(frame, kCamera, 2, 60);
-  EXPECT_GT(degrees_between(mixed.normals(79, 60), {0, 0, -1}), 30);
+  EXPECT_GT(degrees_between(mixed.normals(79, 60), Eigen::Vector3d{0, 0, -1}), 30);
 }
 
 TEST(SurfaceImage, InvalidDepthIsNoPoint) {
@@ -93,7 +91,8 @@ TEST(SurfaceImage, InvalidDepthIsNoPoint) {
     EXPECT_EQ(map.points(u, 10), Eigen::Vector3f(0, 0, 0));
     EXPECT_EQ(map.normals(u, 10), Eigen::Vector3f(0, 0, 0));
   }
-  EXPECT_LT(degrees_between(map.normals(11, 11), {0, 0, -1}), 0.01) << "its neighbours are not disturbed";
+  EXPECT_LT(degrees_between(map.normals(11, 11), Eigen::Vector3d{0, 0, -1}), 0.01)
+      << "its neighbours are not disturbed";
   EXPECT_EQ(make_surface(map, {}).size(), frame.depth.size() - 4);
 }
 
@@ -106,7 +105,8 @@ TEST(SurfaceImage, OnlyTheMaskCounts) {
   const SurfaceImage map = make_surface_image(frame, kCamera);
   EXPECT_EQ(map.points(41, 30), Eigen::Vector3f(0, 0, 0));
   EXPECT_EQ(make_surface(map, {}).size(), 60u * 20u);
-  EXPECT_LT(degrees_between(map.normals(30, 59), {0, 0, -1}), 0.01) << "depth outside the mask took part";
+  EXPECT_LT(degrees_between(map.normals(30, 59), Eigen::Vector3d{0, 0, -1}), 0.01)
+      << "depth outside the mask took part";
 }
 
 TEST(SurfaceImage, TooFewOrCollinearNeighboursGiveNoNormal) {
@@ -121,7 +121,7 @@ TEST(SurfaceImage, TooFewOrCollinearNeighboursGiveNoNormal) {
   EXPECT_GT(map.points(95, 50).z(), 0);
   frame.depth(51, 51) = 800;
   map = make_surface_image(frame, kCamera);
-  EXPECT_LT(degrees_between(map.normals(50, 50), {0, 0, -1}), 0.01) << "three neighbours";
+  EXPECT_LT(degrees_between(map.normals(50, 50), Eigen::Vector3d{0, 0, -1}), 0.01) << "three neighbours";
 }
 
 TEST(SurfaceImage, SparseDepthHasNormalsFromFurtherAway) {

@@ -1,5 +1,4 @@
 #include "framework/imaging/depth_map.h"
-#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -11,17 +10,16 @@
 
 #include "framework/geometry/surface.h"
 #include "tests/device/shapes.h"
+#include "tests/geometry/degrees_between.h"
 #include "tests/geometry/made_depth.h"
 
 namespace pliant {
 namespace {
 
+using test::degrees_between;
+
 /// Width and height are no multiples of a vector.
 const Camera kCamera{300, 290, 84.5, 40, 165, 83};
-
-double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) / degree;
-}
 
 struct Difference {
   double point = 0;  ///< mm

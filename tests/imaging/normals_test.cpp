@@ -1,5 +1,4 @@
 #include "framework/imaging/normals.h"
-#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -11,19 +10,18 @@
 #include "framework/imaging/integral_images.h"
 #include "framework/imaging/plane_fit.h"
 #include "tests/device/shapes.h"
+#include "tests/geometry/degrees_between.h"
 #include "tests/geometry/made_depth.h"
 
 namespace pliant {
 namespace {
 
+using test::degrees_between;
+
 /// Width and height are no multiples of a vector, nor of a tile.
 const Camera kCamera{300, 290, 84.5, 40, 165, 83};
 
 using NormalImage = Image<Eigen::Vector3f>;
-
-double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) / degree;
-}
 
 Frame curved(double noise = 0) {
   Frame frame = made_depth(kCamera, noise);

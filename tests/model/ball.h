@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/core/angle.h"
 #include "framework/geometry/camera.h"
 #include "framework/geometry/frame.h"
 
@@ -38,7 +39,7 @@ struct Ball {
 
   /// A camera that has gone around the ball by some degrees about an axis of the model.
   Eigen::Isometry3d from_around(double degrees, const Eigen::Vector3d& axis) const {
-    return Eigen::Translation3d(centre) * Eigen::AngleAxisd(degrees * EIGEN_PI / 180, axis.normalized()) *
+    return Eigen::Translation3d(centre) * Eigen::AngleAxisd(degrees * degree, axis.normalized()) *
            Eigen::Translation3d(-centre);
   }
 };

@@ -103,15 +103,5 @@ TEST(Models, SayThatThereIsNothingToFitThemTo) {
   EXPECT_NO_THROW(kind("scene", 64)->make(device, nothing));
 }
 
-TEST(Models, TakeWholeVectorsOfVoxels) {
-  try {
-    kind("scene", 100);
-    FAIL();
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("tracked.yaml:3:8"));
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("multiple of 16"));
-  }
-}
-
 }  // namespace
 }  // namespace pliant

@@ -1,5 +1,4 @@
 #include "framework/model/tsdf_reference.h"
-#include "framework/core/angle.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "tests/device/shapes.h"
+#include "tests/geometry/degrees_between.h"
 #include "tests/geometry/made_depth.h"
 #include "tests/model/ball.h"
 
@@ -16,6 +16,7 @@ namespace pliant {
 namespace {
 
 using test::Ball;
+using test::degrees_between;
 
 /// Width and height are no multiples of a vector.
 const Camera kCamera{100, 96, 42.5, 30, 87, 61};
@@ -149,10 +150,6 @@ struct Comparison {
   int same = 0;   ///< where the device sees it less than a twentieth of a voxel and 3 degrees from there
   int extra = 0;  ///< where the device alone sees one
 };
-
-double degrees_between(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) / degree;
-}
 
 Comparison compare(const SurfaceMap& map, const SurfaceImage& expected) {
   Comparison comparison;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "framework/core/angle.h"
 #include "framework/core/error.h"
 #include "framework/deformation/warp.h"
 #include "tests/model/ball.h"
@@ -125,7 +126,7 @@ TEST(WarpField, ShowsTheBentSurface) {
     EXPECT_LT(wall.error(p), 0.5);
     const Eigen::Vector3d normal = kPose.linear().transpose() * normals[i].cast<double>();
     const Eigen::Vector3d expected = Eigen::Vector3d(-wall.slope(p.x()), 0, -1).normalized();
-    EXPECT_GT(normal.dot(expected), std::cos(4 * EIGEN_PI / 180));
+    EXPECT_GT(normal.dot(expected), std::cos(4 * degree));
   }
   EXPECT_GT(seen, 1000);
 }

@@ -6,6 +6,7 @@
 
 #include "experiments/runner/components.h"
 #include "framework/config/config.h"
+#include "framework/core/angle.h"
 #include "framework/core/error.h"
 #include "framework/imaging/depth_map.h"
 #include "tests/pose/lumpy_object.h"
@@ -15,6 +16,7 @@ namespace {
 
 using test::difference;
 using test::motion_of;
+using test::still;
 using ::testing::HasSubstr;
 
 /// Grey of cubes of 12 mm, each of a random brightness, that go with the object.
@@ -38,8 +40,6 @@ Frame painted(const Eigen::Isometry3d& motion) {
   return frame;
 }
 
-const Eigen::Isometry3d first = Eigen::Isometry3d::Identity();
-
 class FeaturesRelocalizerTest : public ::testing::Test {
  protected:
   SurfaceMap surface_of(const Frame& frame) {
@@ -48,7 +48,7 @@ class FeaturesRelocalizerTest : public ::testing::Test {
 
   void remember(Relocalizer& relocalizer, bool has_color) {
     for (const Eigen::Isometry3d& pose :
-         {first, motion_of(0, 20, 0, {0, 0, 0}), motion_of(-20, 0, 0, {0, 0, 0})}) {
+         {still, motion_of(0, 20, 0, {0, 0, 0}), motion_of(-20, 0, 0, {0, 0, 0})}) {
       Frame frame = painted(pose);
       if (!has_color) frame.color = {};
       relocalizer.remember(frame, surface_of(frame), pose);
@@ -75,7 +75,7 @@ TEST_F(FeaturesRelocalizerTest, FindsAFarPoseByColor) {
   const auto candidates = relocalizer_.candidates(frame, surface_of(frame));
   ASSERT_FALSE(candidates.empty());
   EXPECT_LT(difference(candidates.front(), far_away), 10);
-  EXPECT_GT(difference(first, far_away), 100);
+  EXPECT_GT(difference(still, far_away), 100);
 }
 
 TEST_F(FeaturesRelocalizerTest, FindsItByFormWithoutColor) {
@@ -108,7 +108,7 @@ TEST_F(FeaturesRelocalizerTest, NamesNothingWithoutKeyframesOrSurface) {
   Frame empty = frame;
   empty.depth = DepthImage(frame.depth.width(), frame.depth.height(), 0);
   const SurfaceMap nothing = unwritten_surface(test::camera, {0, 0, 0, 0});
-  relocalizer_.remember(empty, nothing, first);
+  relocalizer_.remember(empty, nothing, still);
   EXPECT_TRUE(relocalizer_.candidates(frame, surface_of(frame)).empty())
       << "it was a frame without a surface";
   remember(relocalizer_, true);
@@ -117,8 +117,8 @@ TEST_F(FeaturesRelocalizerTest, NamesNothingWithoutKeyframesOrSurface) {
 
 TEST(Keyframes, AreApartByDistanceOrAngle) {
   Keyframes keyframes({10, 50, 10 * degree}, test::middle());
-  EXPECT_TRUE(keyframes.wants(first));
-  keyframes.add({first, {}, {}});
+  EXPECT_TRUE(keyframes.wants(still));
+  keyframes.add({still, {}, {}});
   EXPECT_FALSE(keyframes.wants(motion_of(0, 9, 0, {49, 0, 0})));
   EXPECT_TRUE(keyframes.wants(motion_of(0, 0, 0, {51, 0, 0})));
   EXPECT_TRUE(keyframes.wants(motion_of(0, 11, 0, {0, 0, 0}))) << "about the middle, which stays";

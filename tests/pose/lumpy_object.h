@@ -41,7 +41,8 @@ inline Frame seen(const Eigen::Isometry3d& motion, const Camera& by = camera) {
   return frame;
 }
 
-/// A plane in the columns from .. to - 1, with a margin above and below, whose depth (mm) grows to the right.
+/// A plane in the columns from .. to - 1, with a margin above and below, whose depth (mm) grows by `slope` mm
+/// a mm to the right.
 inline Frame plane(double depth, int from, int to, double slope = 0) {
   Frame frame{DepthImage(camera.width, camera.height), {}, {}};
   for (int v = 20; v < 100; ++v)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/core/angle.h"
 #include "framework/imaging/depth_map.h"
 #include "tests/device/shapes.h"
 #include "tests/pose/lumpy_object.h"

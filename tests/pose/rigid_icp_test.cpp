@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "framework/core/angle.h"
 #include "framework/imaging/depth_map.h"
 #include "framework/pose/rigid_equation.h"
 #include "tests/device/shapes.h"

@@ -1,5 +1,4 @@
 #include "framework/tracking/tracking_error.h"
-#include "framework/core/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "framework/core/angle.h"
 #include "tests/device/shapes.h"
 
 namespace pliant {

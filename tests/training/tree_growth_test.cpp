@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "experiments/training/tree_growth.h"
+#include "framework/core/angle.h"
 
 namespace pliant {
 namespace {
@@ -56,7 +57,7 @@ double pose_entropy_by_definition(const std::vector<const TrainingPatch*>& patch
     angles.push_back(patch->angles.cast<double>());
   }
   if (offsets.empty()) return 0;
-  const double least_angle = 0.5 * std::acos(-1.0) / 180;
+  const double least_angle = 0.5 * degree;
   return entropy_by_definition(offsets, 1) + entropy_by_definition(angles, least_angle * least_angle);
 }
 
