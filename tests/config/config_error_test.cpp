@@ -127,7 +127,7 @@ TEST_F(ConfigErrorLine, OutOfRange) {
   EXPECT_THAT(
       errors(minimal + "compare: {pixels: 36}\n"),
       ElementsAre(
-          "exp.yaml:3:20: 'compare.pixels' is '36'; expected an integer from 16 to 64, a multiple of 8"));
+          "exp.yaml:3:19: 'compare.pixels' is '36'; expected an integer from 16 to 64, a multiple of 8"));
 }
 
 TEST_F(ConfigErrorLine, BooleansAreTrueOrFalse) {

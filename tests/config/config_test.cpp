@@ -389,6 +389,7 @@ metrics: [epe, "yes"]
 variants: {}
 compare:
   repeat: 1
+  pixels: 32
   with: {}
 )");
 }
