@@ -96,7 +96,7 @@ ordered_json typed_default(const Parameter& row) {
 }
 
 std::string range_text(const Parameter& row) {
-  const std::string limits = limits_text(row);
+  std::string limits = limits_text(row);
   if (row.step() == 1) return limits;
   return fmt::format("{}{}a multiple of {}", limits, limits.empty() ? "" : ", ", row.step());
 }
