@@ -26,7 +26,7 @@ struct SurfaceImage {
   Image<Eigen::Vector3f> normals;
 };
 
-/// Whether that is a point, not one of the zeros that stand where there is none.
+/// Whether that is a point: finite, and not one of the zeros that stand where there is none.
 inline bool is_point(const Eigen::Vector3f& point) { return point.allFinite() && point.z() > 0; }
 
 /// The window over which normals are fitted.
