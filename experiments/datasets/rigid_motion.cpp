@@ -5,9 +5,8 @@
 namespace pliant {
 
 Eigen::Isometry3d RigidMotion::transform() const {
-  const auto radians = [](double degrees) { return degrees * degree; };
-  return Eigen::Translation3d(shift) * Eigen::AngleAxisd(radians(rotation_x), Eigen::Vector3d::UnitX()) *
-         Eigen::AngleAxisd(radians(rotation_y), Eigen::Vector3d::UnitY());
+  return Eigen::Translation3d(shift) * Eigen::AngleAxisd(rotation_x * degree, Eigen::Vector3d::UnitX()) *
+         Eigen::AngleAxisd(rotation_y * degree, Eigen::Vector3d::UnitY());
 }
 
 ParameterTable motion_table() {

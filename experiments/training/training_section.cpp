@@ -1,4 +1,3 @@
-
 #include "experiments/training/head_forest_training.h"
 
 namespace pliant {

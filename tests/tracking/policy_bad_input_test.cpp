@@ -121,6 +121,13 @@ TEST_F(PolicyBadInput, ThresholdsThatAreNoneAreErrorsOfTheirPlace) {
   EXPECT_THAT(config_error_of("{type: every_n, n: 0}"), HasSubstr("from 1 to 1000000"));
 }
 
+TEST_F(PolicyBadInput, ModelsOfPartsOfVectorsOfVoxelsAreErrorsOfTheirPlace) {
+  EXPECT_THAT(
+      [&] { method({"model.resolution=100"}); },
+      ::testing::ThrowsMessage<ConfigError>(AllOf(
+          HasSubstr("--set model.resolution: 'model.resolution' is '100'"), HasSubstr("a multiple of 16"))));
+}
+
 TEST_F(PolicyBadInput, MadeFromCppWithoutAFiniteThresholdNeverRegisters) {
   EXPECT_TRUE(registers(0.4, 0.5));
   EXPECT_FALSE(registers(0.4, 0.3));
